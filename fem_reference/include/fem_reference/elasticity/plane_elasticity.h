@@ -1,0 +1,132 @@
+#pragma once
+
+#include "fem_reference/elasticity/material.h"
+#include "fem_reference/errors.h"
+#include "fem_reference/mesh/quadrilateral_mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+
+namespace fem_reference::elasticity
+{
+using mesh::Point; // metres
+using mesh::QuadrilateralMesh;
+using Vector = std::array<double, 2>;
+
+/// Batch callback: fills values[k] at points[k], for example a displacement in m or a force in N/m^3.
+using VectorField = std::function<void(std::span<const Point> points, std::span<Vector> values)>;
+
+/// As VectorField, with the unit outward normal at each point; values in Pa.
+using TractionField = std::function<
+  void(std::span<const Point> points, std::span<const Vector> normals, std::span<Vector> values)>;
+
+enum class ConditionKind
+{
+  displacement,
+  traction
+};
+
+/// What is prescribed on the edges of one boundary id, component by component.
+/// `displacement` is needed where a component is of that kind. An empty `traction` means zero.
+struct BoundaryCondition
+{
+  std::array<ConditionKind, 2> kind = {ConditionKind::traction, ConditionKind::traction};
+  VectorField displacement = {};
+  TractionField traction = {};
+};
+
+/// Find u with -div sigma(u) = b in the mesh, u_i given or (sigma n)_i given on each boundary id.
+///
+/// A node shared by edges of several ids: a component is essential as soon as one of the edges
+/// prescribes it; if several do, the lowest id gives the value (PlaneSolution::contradicted_values
+/// counts those that differ). Tractions of the other edges act on the components left free.
+///
+/// Coordinates are shifted to an origin within the mesh before anything is computed, so that a mesh
+/// far from the origin loses only what its own coordinates have lost. Callbacks receive, and
+/// evaluation expects, the original coordinates.
+struct PlaneProblem
+{
+  QuadrilateralMesh mesh;
+  Material material;
+  /// One condition for each boundary id of the mesh.
+  std::map<int, BoundaryCondition> boundary;
+  /// N/m^3; may be empty: then nothing is computed for it.
+  VectorField body_force = {};
+};
+
+enum class LinearSolver
+{
+  cholesky, ///< CHOLMOD, supernodal L L^T
+  umfpack   ///< UMFPACK, L U of the full matrix
+};
+
+struct Options
+{
+  /// Q1 ... Q4: polynomial degree of displacement and geometry.
+  int degree = 2;
+  LinearSolver solver = LinearSolver::cholesky;
+};
+
+/// Wall-clock seconds by phase.
+struct Seconds
+{
+  double mesh = 0;               ///< checks and triangulation
+  double degrees_of_freedom = 0; ///< numbering, node positions, sparsity pattern
+  double assembly = 0;           ///< stiffness, loads, essential data
+  double solve = 0;              ///< ordering, factorisation, substitution, residual
+
+  double total() const { return mesh + degrees_of_freedom + assembly + solve; }
+};
+
+/// The finite element solution. Cheap to move and to copy (copies share the immutable data).
+class PlaneSolution
+{
+public:
+  class Implementation;
+  explicit PlaneSolution(std::shared_ptr<const Implementation> implementation);
+
+  std::size_t n_cells() const;
+  /// Number of displacement unknowns, prescribed ones included.
+  std::size_t n_dofs() const;
+  /// Entries of the full symmetric matrix, n_dofs() rows.
+  std::size_t nonzeros() const;
+  const Seconds &seconds() const;
+
+  /// ||K u - f||_2 / ||f||_2 after elimination of the essential data.
+  double relative_residual() const;
+  /// Normwise backward error ||K u - f|| / (||K|| ||u|| + ||f||) in the maximum norm: about the
+  /// machine precision when the direct solver did all it could.
+  double backward_error() const;
+  /// Nodal components for which boundary ids prescribe different displacements.
+  std::size_t contradicted_values() const;
+
+  /// Displacement in m at any points. Both spans have the same length.
+  ///
+  /// A point on the border of several cells takes the cell of lowest index. A point outside takes the
+  /// nearest cell, whose polynomial is continued by at most a quarter of the cell.
+  void displacement(std::span<const Point> points, std::span<Vector> values) const;
+
+  /// In-plane stress (sigma_11, sigma_22, sigma_12) in Pa, directly from the strain of the cell that
+  /// holds the point (same choice as in `displacement`), without smoothing.
+  void stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const;
+
+  /// How many points of the last call to `displacement` or `stress` lay outside of all cells, by
+  /// more than 1e-10 of a cell.
+  std::size_t points_outside() const;
+
+private:
+  std::shared_ptr<const Implementation> implementation_;
+};
+
+/// Solve by conforming isoparametric elements Qp with nodes at Gauss-Lobatto points and
+/// (p + 1)^2 Gauss points a cell; loads by p + 2 Gauss points a direction. Essential data are
+/// interpolated at the nodes and eliminated symmetrically.
+///
+/// Throws InvalidInput for an invalid mesh, degree or boundary condition, including essential
+/// conditions that leave rigid motions free; SolveFailure if the factorisation fails.
+PlaneSolution solve(const PlaneProblem &problem, const Options &options = {});
+} // namespace fem_reference::elasticity

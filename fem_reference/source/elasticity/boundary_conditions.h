@@ -1,0 +1,36 @@
+#pragma once
+
+#include "../linear_algebra/block_matrix.h"
+#include "discretisation.h"
+#include "fem_reference/elasticity/plane_elasticity.h"
+
+#include <vector>
+
+namespace fem_reference::elasticity
+{
+/// Prescribed displacements: for unknown = 2 node + component whether it is prescribed, and its value
+/// in m (zero elsewhere).
+struct EssentialData
+{
+  std::vector<char> prescribed;
+  std::vector<double> values;
+  std::size_t contradicted = 0;
+};
+
+/// Each boundary id of the mesh needs a condition, each condition an id of the mesh and a
+/// displacement where a component asks for one. Throws InvalidInput.
+void check_conditions(const PlaneProblem &problem);
+
+/// Interpolate the prescribed displacements at the nodes of the boundary edges. Throws InvalidInput
+/// if a value is not finite or if a connected part of the mesh is left with a free rigid motion.
+EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation);
+
+/// Integrals of the shape functions with body force and tractions, N per m of thickness.
+std::vector<double> load_vector(const PlaneProblem &problem, const Discretisation &discretisation);
+
+/// Move the prescribed columns to the right-hand side and keep of prescribed rows and columns the
+/// diagonal alone: the matrix stays symmetric positive definite and of the same size.
+void eliminate(const EssentialData &essential,
+               linear_algebra::BlockMatrix &matrix,
+               std::vector<double> &right_hand_side);
+} // namespace fem_reference::elasticity
