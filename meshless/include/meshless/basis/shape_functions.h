@@ -1,0 +1,155 @@
+#pragma once
+
+#include "meshless/cloud/neighbour_lists.h"
+#include "meshless/cloud/particles.h"
+#include "meshless/linear_algebra/pack.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace meshless::basis {
+
+/// Points that share one list of candidates, coordinates as separate arrays padded to whole SIMD
+/// packs (the padding repeats the last point).
+template <int dim>
+class PointBatch {
+public:
+  void assign(std::span<const cloud::Point<dim>> points);
+  /// A range of coordinate arrays.
+  void assign(const std::array<std::span<const double>, dim> &coordinates);
+
+  std::size_t size() const { return size_; }
+  std::size_t stride() const { return stride_; }
+  const double *coordinate(int k) const { return coordinates_[k].data(); }
+  cloud::Point<dim> point(std::size_t i) const;
+
+private:
+  std::size_t size_ = 0;
+  std::size_t stride_ = 0;
+  std::array<std::vector<double>, dim> coordinates_;
+};
+
+/// The candidate particles of a batch: those whose support may reach one of its points.
+template <int dim>
+class CandidateBatch {
+public:
+  void assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates);
+
+  std::size_t size() const { return inverse_h_.size(); }
+  const double *coordinate(int k) const { return coordinates_[k].data(); }
+  /// 1 / h of every candidate, 1/m.
+  const double *inverse_h() const { return inverse_h_.data(); }
+  /// Mean smoothing length: the scale of the monomials, m.
+  double scale() const { return scale_; }
+
+private:
+  std::array<std::vector<double>, dim> coordinates_;
+  std::vector<double> inverse_h_;
+  double scale_ = 1;
+};
+
+/// Which shape functions are asked for; what is not asked for is not computed.
+struct Wanted {
+  bool value = false;
+  /// First derivatives, found directly (without differentiating the shape function).
+  bool gradient = false;
+  /// Second derivatives, found directly.
+  bool hessian = false;
+  /// First derivatives of the shape function itself (weak2).
+  bool differentiated_gradient = false;
+};
+
+/// Shape functions of one batch, point fastest: entry (quantity, candidate, point).
+///
+/// Quantities: value; gradient k; hessian (k, l) with k <= l, in the order 11, 12, .., 22, ..;
+/// differentiated gradient k.
+template <int dim>
+class ShapeFunctionValues {
+public:
+  static constexpr int n_hessian = dim * (dim + 1) / 2;
+  static constexpr int n_quantities = 1 + dim + n_hessian + dim;
+
+  void resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride);
+
+  /// Rows of `stride` points; valid only for what was wanted.
+  const double *value(std::size_t j) const { return row(0, j); }
+  const double *gradient(int k, std::size_t j) const { return row(1 + k, j); }
+  const double *hessian(int kl, std::size_t j) const { return row(1 + dim + kl, j); }
+  const double *differentiated_gradient(int k, std::size_t j) const { return row(1 + dim + n_hessian + k, j); }
+
+  double *row(int quantity, std::size_t j) { return data_.data() + (slot_[quantity] * n_candidates_ + j) * stride_; }
+  const double *row(int quantity, std::size_t j) const
+  {
+    return data_.data() + (slot_[quantity] * n_candidates_ + j) * stride_;
+  }
+  bool has(int quantity) const { return slot_[quantity] != absent; }
+  std::size_t n_candidates() const { return n_candidates_; }
+  std::size_t stride() const { return stride_; }
+
+private:
+  static constexpr std::size_t absent = static_cast<std::size_t>(-1);
+  std::size_t n_candidates_ = 0;
+  std::size_t stride_ = 0;
+  std::array<std::size_t, n_quantities> slot_{};
+  std::vector<double> data_;
+};
+
+/// How regular the moment matrices of a batch were.
+struct Regularity {
+  /// Smallest pivot of the factorisation over its diagonal entry, 1 = perfectly regular.
+  double smallest_pivot_ratio = 1;
+  /// Point of the batch where that was.
+  std::size_t worst_point = 0;
+  /// Candidates inside the support at that point.
+  std::size_t n_neighbours = 0;
+};
+
+/// Pivot ratios below this mean a moment matrix that is singular to rounding: a regular one with
+/// this ratio would leave no more than three digits.
+inline constexpr double singular_pivot_ratio = 1e-12;
+
+/// Meshless shape functions: the one interface of all bases.
+///
+/// Thread-safe; scratch arrays live in a Workspace of the caller, so that nothing is allocated
+/// per point.
+template <int dim>
+class ShapeFunctions {
+public:
+  /// Scratch of one thread; grows to the largest batch and stays.
+  struct Workspace {
+    std::vector<double> weights;
+    std::vector<double> slopes;
+    std::vector<cloud::Index> active;
+  };
+
+  virtual ~ShapeFunctions() = default;
+
+  /// Shape functions of all candidates at all points of the batch. Singular lanes give
+  /// meaningless values and are reported in the result; see `require_regular`.
+  virtual Regularity evaluate(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates,
+                              const Wanted &wanted, ShapeFunctionValues<dim> &values,
+                              Workspace &workspace) const = 0;
+
+  /// Radius of the support in units of h.
+  virtual double support() const = 0;
+  /// Polynomials up to this degree are reproduced.
+  virtual int order() const = 0;
+  /// Terms of the basis: the least number of neighbours.
+  virtual std::size_t n_terms() const = 0;
+};
+
+/// A moment matrix that is singular to rounding: where, and what would mend it.
+class SingularMomentMatrix : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws SingularMomentMatrix naming point, neighbours and terms if a moment matrix of the
+///   batch was singular to rounding
+template <int dim>
+void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis);
+
+} // namespace meshless::basis

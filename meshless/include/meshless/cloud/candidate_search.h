@@ -1,0 +1,34 @@
+#pragma once
+
+#include "meshless/cloud/cell_list.h"
+#include "meshless/cloud/point_tree.h"
+
+#include <optional>
+
+namespace meshless::cloud {
+
+/// Finds the particles whose support reaches into a ball: the candidates that all points of the
+/// ball share. The support of particle j is the ball of radius `support` h_j around it.
+///
+/// One smoothing length uses a cell list, varying ones a k-d tree.
+template <int dim>
+class CandidateSearch {
+public:
+  /// @param particles kept by reference; must outlive the search
+  /// @param support radius of the kernel's support in units of h
+  CandidateSearch(const Particles<dim> &particles, double support);
+
+  /// Replaces `result` by the candidates of the ball, in increasing order.
+  void collect(const Point<dim> &centre, double radius, std::vector<Index> &result) const;
+
+  const Particles<dim> &particles() const { return *particles_; }
+  double support() const { return support_; }
+
+private:
+  const Particles<dim> *particles_;
+  double support_;
+  std::optional<CellList<dim>> cells_;
+  std::optional<PointTree<dim>> tree_;
+};
+
+} // namespace meshless::cloud

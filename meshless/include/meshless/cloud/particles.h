@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace meshless::cloud {
+
+/// A position or vector, in metres where it is a position.
+template <int dim>
+using Point = std::array<double, dim>;
+
+template <int dim>
+inline double distance_squared(const Point<dim> &a, const Point<dim> &b)
+{
+  double sum = 0;
+  for (int k = 0; k < dim; ++k)
+    sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+/// A cloud of particles: positions and smoothing lengths, checked once.
+template <int dim>
+class Particles {
+public:
+  Particles() = default;
+
+  /// @param positions in metres
+  /// @param smoothing_lengths h of every particle in metres, as many as positions, all > 0
+  /// @throws std::invalid_argument naming the particle for a non-finite position, a smoothing
+  ///   length that is not positive, or two particles at the same place
+  Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths);
+
+  std::size_t size() const { return positions_.size(); }
+  const Point<dim> &position(std::size_t i) const { return positions_[i]; }
+  double smoothing_length(std::size_t i) const { return smoothing_lengths_[i]; }
+  std::span<const Point<dim>> positions() const { return positions_; }
+  std::span<const double> smoothing_lengths() const { return smoothing_lengths_; }
+  double largest_smoothing_length() const { return largest_smoothing_length_; }
+  /// True if all smoothing lengths are equal to rounding.
+  bool uniform() const { return uniform_; }
+
+private:
+  std::vector<Point<dim>> positions_;
+  std::vector<double> smoothing_lengths_;
+  double largest_smoothing_length_ = 0;
+  bool uniform_ = true;
+};
+
+/// Smoothing length from the nearest neighbour (Batra & Zhang 2008, section 3.2: h is the
+/// smallest distance of a particle from its neighbours), times `factor`.
+template <int dim>
+std::vector<double> smoothing_lengths_by_nearest(std::span<const Point<dim>> positions, double factor);
+
+/// Smoothing length from the mean distance of the k nearest neighbours, times `factor`; robust on
+/// anisotropic clouds, where the nearest distance alone leaves particles without neighbours.
+template <int dim>
+std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positions, int k, double factor);
+
+} // namespace meshless::cloud

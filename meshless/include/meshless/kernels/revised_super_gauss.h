@@ -1,0 +1,36 @@
+#pragma once
+
+#include "meshless/linear_algebra/pack.h"
+
+namespace meshless::kernels {
+
+/// Revised super Gauss function, Zhang & Batra 2008, Eqs. (6.10) and (6.17):
+///   W(s) = G / (h sqrt(pi))^dim (rho^2 - s^2) e^(-a s^2) for s <= rho, else 0.
+/// The paper has rho = 2; it recommends a = 1.6. Value and slope as in kernels/gauss.h.
+class RevisedSuperGauss {
+public:
+  /// @param cut_off rho > 0, in units of h
+  /// @param decay the parameter a > 0
+  RevisedSuperGauss(double cut_off, double decay) : cut_off_(cut_off), decay_(decay) {}
+
+  double support() const { return cut_off_; }
+
+  template <typename T>
+  T value(const T &s_squared) const
+  {
+    return (cut_off_ * cut_off_ - s_squared) * linear_algebra::exponential(-decay_ * s_squared);
+  }
+
+  template <typename T>
+  T slope(const T &s_squared) const
+  {
+    return -2 * (1 + decay_ * (cut_off_ * cut_off_ - s_squared)) *
+           linear_algebra::exponential(-decay_ * s_squared);
+  }
+
+private:
+  double cut_off_;
+  double decay_;
+};
+
+} // namespace meshless::kernels

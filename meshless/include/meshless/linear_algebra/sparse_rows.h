@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meshless::linear_algebra {
+
+/// A sparse matrix built row by row, compressed rows; columns of a row increase.
+class SparseRows {
+public:
+  explicit SparseRows(std::int64_t n_columns) : n_columns_(n_columns), offsets_(1, 0) {}
+
+  void reserve(std::size_t n_entries);
+
+  /// Appends a row; entries that are exactly zero are left out.
+  /// @param columns increasing
+  void append_row(std::span<const std::int64_t> columns, std::span<const double> values);
+
+  /// Divides every row by its largest absolute entry and returns the divisors: the weak and the
+  /// strong form mix rows of stiffness, traction and penalty size.
+  /// @throws std::runtime_error naming the row if one is zero or not finite
+  std::vector<double> equilibrate_rows();
+
+  std::int64_t n_rows() const { return static_cast<std::int64_t>(offsets_.size()) - 1; }
+  std::int64_t n_columns() const { return n_columns_; }
+  std::int64_t nonzeros() const { return offsets_.back(); }
+  std::span<const std::int64_t> offsets() const { return offsets_; }
+  std::span<const std::int64_t> columns() const { return columns_; }
+  std::span<const double> values() const { return values_; }
+
+  /// y = A x
+  void multiply(std::span<const double> x, std::span<double> y) const;
+
+private:
+  std::int64_t n_columns_;
+  std::vector<std::int64_t> offsets_;
+  std::vector<std::int64_t> columns_;
+  std::vector<double> values_;
+};
+
+/// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf): how far the system must be changed to make x exact.
+double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b);
+
+} // namespace meshless::linear_algebra

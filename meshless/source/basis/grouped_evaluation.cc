@@ -1,0 +1,91 @@
+#include "meshless/basis/grouped_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace meshless::basis {
+
+namespace {
+
+constexpr std::size_t largest_batch = 64;
+
+template <int dim>
+struct SortedCells {
+  std::vector<std::array<std::int64_t, dim>> cell; ///< of every point
+  std::vector<std::size_t> order;                  ///< points, those of a cell together
+};
+
+template <int dim>
+SortedCells<dim> sort_into_cells(std::span<const cloud::Point<dim>> points, const cloud::Point<dim> &origin,
+                                 double cell_size)
+{
+  SortedCells<dim> sorted;
+  sorted.cell.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int k = 0; k < dim; ++k) {
+      const double c = std::floor((points[i][k] - origin[k]) / cell_size);
+      sorted.cell[i][k] = static_cast<std::int64_t>(std::clamp(c, -9e15, 9e15));
+    }
+  sorted.order.resize(points.size());
+  std::iota(sorted.order.begin(), sorted.order.end(), std::size_t{0});
+  std::sort(sorted.order.begin(), sorted.order.end(), [&](std::size_t a, std::size_t b) {
+    return sorted.cell[a] != sorted.cell[b] ? sorted.cell[a] < sorted.cell[b] : a < b;
+  });
+  return sorted;
+}
+
+} // namespace
+
+template <int dim>
+void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
+                                   const Visitor &visitor) const
+{
+  const auto &particles = search_->particles();
+  const auto h = particles.smoothing_lengths();
+  const double mean = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
+  const auto sorted = sort_into_cells<dim>(points, particles.position(0), 1.5 * mean);
+
+  PointBatch<dim> batch;
+  CandidateBatch<dim> candidate_batch;
+  ShapeFunctionValues<dim> values;
+  typename ShapeFunctions<dim>::Workspace workspace;
+  std::vector<cloud::Index> candidates;
+  std::vector<cloud::Point<dim>> members;
+  for (std::size_t begin = 0; begin < points.size();) {
+    std::size_t end = begin + 1;
+    while (end < points.size() && end - begin < largest_batch &&
+           sorted.cell[sorted.order[end]] == sorted.cell[sorted.order[begin]])
+      ++end;
+    members.clear();
+    cloud::Point<dim> low = points[sorted.order[begin]];
+    cloud::Point<dim> high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto &x = points[sorted.order[i]];
+      members.push_back(x);
+      for (int k = 0; k < dim; ++k) {
+        low[k] = std::min(low[k], x[k]);
+        high[k] = std::max(high[k], x[k]);
+      }
+    }
+    cloud::Point<dim> centre;
+    for (int k = 0; k < dim; ++k)
+      centre[k] = 0.5 * (low[k] + high[k]);
+    // Slack of rounding, so that the farthest point of the group is covered.
+    const double radius = std::sqrt(cloud::distance_squared<dim>(centre, high)) + 1e-12 * mean;
+    search_->collect(centre, radius, candidates);
+    batch.assign(std::span<const cloud::Point<dim>>(members));
+    candidate_batch.assign(particles, candidates);
+    const auto regularity = basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
+    require_regular(regularity, batch, *basis_);
+    visitor(Group{std::span(sorted.order).subspan(begin, end - begin), candidates, values});
+    begin = end;
+  }
+}
+
+template class GroupedEvaluation<1>;
+template class GroupedEvaluation<2>;
+template class GroupedEvaluation<3>;
+
+} // namespace meshless::basis

@@ -1,0 +1,106 @@
+#include "meshless/basis/shape_functions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace meshless::basis {
+
+template <int dim>
+void PointBatch<dim>::assign(std::span<const cloud::Point<dim>> points)
+{
+  size_ = points.size();
+  stride_ = linear_algebra::padded(size_);
+  for (int k = 0; k < dim; ++k) {
+    coordinates_[k].resize(stride_);
+    for (std::size_t i = 0; i < stride_; ++i)
+      coordinates_[k][i] = points[std::min(i, size_ - 1)][k];
+  }
+}
+
+template <int dim>
+void PointBatch<dim>::assign(const std::array<std::span<const double>, dim> &coordinates)
+{
+  size_ = coordinates[0].size();
+  stride_ = linear_algebra::padded(size_);
+  for (int k = 0; k < dim; ++k) {
+    coordinates_[k].assign(coordinates[k].begin(), coordinates[k].end());
+    coordinates_[k].resize(stride_, size_ == 0 ? 0.0 : coordinates[k].back());
+  }
+}
+
+template <int dim>
+cloud::Point<dim> PointBatch<dim>::point(std::size_t i) const
+{
+  cloud::Point<dim> result;
+  for (int k = 0; k < dim; ++k)
+    result[k] = coordinates_[k][i];
+  return result;
+}
+
+template <int dim>
+void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates)
+{
+  const std::size_t n = candidates.size();
+  inverse_h_.resize(n);
+  for (int k = 0; k < dim; ++k)
+    coordinates_[k].resize(n);
+  double sum = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto particle = static_cast<std::size_t>(candidates[j]);
+    for (int k = 0; k < dim; ++k)
+      coordinates_[k][j] = particles.position(particle)[k];
+    const double h = particles.smoothing_length(particle);
+    inverse_h_[j] = 1 / h;
+    sum += h;
+  }
+  scale_ = n == 0 ? 1 : sum / static_cast<double>(n);
+}
+
+template <int dim>
+void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride)
+{
+  n_candidates_ = n_candidates;
+  stride_ = stride;
+  std::size_t n_slots = 0;
+  const auto assign = [&](int first, int count, bool on) {
+    for (int i = 0; i < count; ++i)
+      slot_[first + i] = on ? n_slots++ : absent;
+  };
+  assign(0, 1, wanted.value);
+  assign(1, dim, wanted.gradient);
+  assign(1 + dim, n_hessian, wanted.hessian);
+  assign(1 + dim + n_hessian, dim, wanted.differentiated_gradient);
+  data_.resize(n_slots * n_candidates * stride);
+}
+
+template <int dim>
+void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis)
+{
+  if (regularity.smallest_pivot_ratio > singular_pivot_ratio)
+    return;
+  const std::size_t n = regularity.n_neighbours;
+  const std::string cause =
+      n < basis.n_terms()
+          ? fmt::format("too few neighbours: {} for {} terms", n, basis.n_terms())
+          : fmt::format("its {} neighbours do not lie on {} distinct lines of particles in every direction, as "
+                        "order {} needs",
+                        n, basis.order() + 1, basis.order());
+  throw SingularMomentMatrix(fmt::format(
+      "singular moment matrix at ({:.6g}): {} (smallest pivot ratio {:.1e}); enlarge the support (now {} h), lower "
+      "the order, or add particles there",
+      fmt::join(points.point(regularity.worst_point), ", "), cause, regularity.smallest_pivot_ratio, basis.support()));
+}
+
+#define INSTANTIATE(dim)                                                                                     \
+  template class PointBatch<dim>;                                                                            \
+  template class CandidateBatch<dim>;                                                                        \
+  template class ShapeFunctionValues<dim>;                                                                   \
+  template void require_regular<dim>(const Regularity &, const PointBatch<dim> &, const ShapeFunctions<dim> &);
+INSTANTIATE(1)
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+
+} // namespace meshless::basis

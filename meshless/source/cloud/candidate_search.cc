@@ -1,0 +1,39 @@
+#include "meshless/cloud/candidate_search.h"
+
+#include <algorithm>
+
+namespace meshless::cloud {
+
+template <int dim>
+CandidateSearch<dim>::CandidateSearch(const Particles<dim> &particles, double support)
+    : particles_(&particles), support_(support)
+{
+  if (particles.uniform())
+    cells_.emplace(particles.positions(), support * particles.largest_smoothing_length() / 2);
+  else
+    tree_.emplace(particles.positions());
+}
+
+template <int dim>
+void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std::vector<Index> &result) const
+{
+  result.clear();
+  const double reach = support_ * particles_->largest_smoothing_length() + radius;
+  if (cells_)
+    cells_->append_within(centre, reach, result);
+  else {
+    tree_->append_within(centre, reach, result);
+    std::erase_if(result, [&](Index j) {
+      const auto particle = static_cast<std::size_t>(j);
+      const double own = support_ * particles_->smoothing_length(particle) + radius;
+      return distance_squared<dim>(particles_->position(particle), centre) >= own * own;
+    });
+  }
+  std::sort(result.begin(), result.end());
+}
+
+template class CandidateSearch<1>;
+template class CandidateSearch<2>;
+template class CandidateSearch<3>;
+
+} // namespace meshless::cloud

@@ -1,0 +1,133 @@
+#include "meshless/cloud/cell_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace meshless::cloud {
+
+namespace {
+
+/// Calls f(row begin, row end) for the cells in the box [low, high], a contiguous run along the
+/// last axis at a time.
+template <int dim, typename F>
+void for_each_run(const std::array<std::ptrdiff_t, dim> &low, const std::array<std::ptrdiff_t, dim> &high,
+                  const std::array<std::ptrdiff_t, dim> &n_cells, const F &f)
+{
+  std::array<std::ptrdiff_t, dim> cell = low;
+  while (true) {
+    std::ptrdiff_t begin = 0;
+    for (int k = 0; k < dim; ++k)
+      begin = begin * n_cells[k] + cell[k];
+    f(begin, begin + high[dim - 1] - low[dim - 1] + 1);
+    int k = dim - 2;
+    for (; k >= 0; --k) {
+      if (++cell[k] <= high[k])
+        break;
+      cell[k] = low[k];
+    }
+    if (k < 0)
+      return;
+  }
+}
+
+} // namespace
+
+template <int dim>
+CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
+    : positions_(positions), cell_size_(cell_size)
+{
+  if (!(cell_size > 0) || positions.empty())
+    throw std::invalid_argument("a cell list needs particles and a positive cell size");
+  Point<dim> upper = positions[0];
+  origin_ = positions[0];
+  for (const auto &x : positions)
+    for (int k = 0; k < dim; ++k) {
+      origin_[k] = std::min(origin_[k], x[k]);
+      upper[k] = std::max(upper[k], x[k]);
+    }
+  // A cloud that is sparse in its bounding box would need too many cells: coarsen them.
+  const double limit = 4.0 * static_cast<double>(positions.size()) + 64;
+  for (;; cell_size_ *= 2) {
+    double n = 1;
+    for (int k = 0; k < dim; ++k)
+      n *= std::floor((upper[k] - origin_[k]) / cell_size_) + 1;
+    if (n <= limit)
+      break;
+  }
+  std::size_t n_total = 1;
+  for (int k = 0; k < dim; ++k) {
+    n_cells_[k] = static_cast<std::ptrdiff_t>(std::floor((upper[k] - origin_[k]) / cell_size_)) + 1;
+    n_total *= static_cast<std::size_t>(n_cells_[k]);
+  }
+
+  std::vector<std::size_t> cell_index(positions.size());
+  offsets_.assign(n_total + 1, 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto cell = cell_of(positions[i]);
+    std::size_t index = 0;
+    for (int k = 0; k < dim; ++k)
+      index = index * static_cast<std::size_t>(n_cells_[k]) + static_cast<std::size_t>(cell[k]);
+    cell_index[i] = index;
+    ++offsets_[index + 1];
+  }
+  for (std::size_t c = 1; c < offsets_.size(); ++c)
+    offsets_[c] += offsets_[c - 1];
+  std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
+  members_.resize(positions.size());
+  sorted_positions_.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::size_t slot = next[cell_index[i]]++;
+    members_[slot] = static_cast<Index>(i);
+    sorted_positions_[slot] = positions[i];
+  }
+}
+
+template <int dim>
+std::array<std::ptrdiff_t, dim> CellList<dim>::cell_of(const Point<dim> &point) const
+{
+  std::array<std::ptrdiff_t, dim> cell{};
+  for (int k = 0; k < dim; ++k) {
+    const double c = std::floor((point[k] - origin_[k]) / cell_size_);
+    cell[k] = static_cast<std::ptrdiff_t>(std::clamp(c, 0.0, static_cast<double>(n_cells_[k] - 1)));
+  }
+  return cell;
+}
+
+template <int dim>
+void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const
+{
+  Point<dim> low = centre;
+  Point<dim> high = centre;
+  for (int k = 0; k < dim; ++k) {
+    low[k] -= radius;
+    high[k] += radius;
+  }
+  const double radius_squared = radius * radius;
+  for_each_run<dim>(cell_of(low), cell_of(high), n_cells_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const std::size_t last = offsets_[static_cast<std::size_t>(end)];
+    for (std::size_t slot = offsets_[static_cast<std::size_t>(begin)]; slot < last; ++slot)
+      if (distance_squared<dim>(sorted_positions_[slot], centre) < radius_squared)
+        result.push_back(members_[slot]);
+  });
+}
+
+template <int dim>
+NeighbourLists CellList<dim>::all_within(double radius) const
+{
+  std::vector<std::size_t> offsets(1, 0);
+  offsets.reserve(positions_.size() + 1);
+  std::vector<Index> indices;
+  for (const auto &x : positions_) {
+    append_within(x, radius, indices);
+    std::sort(indices.begin() + static_cast<std::ptrdiff_t>(offsets.back()), indices.end());
+    offsets.push_back(indices.size());
+  }
+  return {std::move(offsets), std::move(indices)};
+}
+
+template class CellList<1>;
+template class CellList<2>;
+template class CellList<3>;
+
+} // namespace meshless::cloud

@@ -1,0 +1,96 @@
+#include "meshless/cloud/particles.h"
+
+#include "meshless/cloud/point_tree.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace meshless::cloud {
+
+namespace {
+
+template <int dim>
+void check_positions(std::span<const Point<dim>> positions)
+{
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (const double x : positions[i])
+      if (!std::isfinite(x))
+        throw std::invalid_argument(
+            fmt::format("particle {}: its position ({}) is not finite", i, fmt::join(positions[i], ", ")));
+
+  // Sorted, equal positions are adjacent.
+  std::vector<std::size_t> order(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
+  });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (positions[order[k]] == positions[order[k - 1]])
+      throw std::invalid_argument(fmt::format("particles {} and {} are at the same place ({})", order[k - 1],
+                                              order[k], fmt::join(positions[order[k]], ", ")));
+}
+
+} // namespace
+
+template <int dim>
+Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths)
+    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths))
+{
+  if (positions_.empty())
+    throw std::invalid_argument("a cloud needs at least one particle");
+  if (positions_.size() != smoothing_lengths_.size())
+    throw std::invalid_argument(fmt::format("{} positions but {} smoothing lengths", positions_.size(),
+                                            smoothing_lengths_.size()));
+  check_positions<dim>(positions_);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double h = smoothing_lengths_[i];
+    if (!(h > 0) || !std::isfinite(h))
+      throw std::invalid_argument(fmt::format("particle {}: its smoothing length {} is not positive", i, h));
+    smallest = std::min(smallest, h);
+    largest_smoothing_length_ = std::max(largest_smoothing_length_, h);
+  }
+  uniform_ = largest_smoothing_length_ <= smallest * (1 + 1e-9);
+}
+
+template <int dim>
+std::vector<double> smoothing_lengths_by_nearest(std::span<const Point<dim>> positions, double factor)
+{
+  return smoothing_lengths_by_mean<dim>(positions, 1, factor);
+}
+
+template <int dim>
+std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positions, int k, double factor)
+{
+  if (positions.size() < 2)
+    throw std::invalid_argument("a smoothing length needs at least two particles");
+  const PointTree<dim> tree(positions);
+  std::vector<double> lengths(positions.size());
+  std::vector<Index> indices;
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    tree.nearest(positions[i], k + 1, indices, distances); // the particle itself comes first
+    double sum = 0;
+    for (std::size_t n = 1; n < distances.size(); ++n)
+      sum += distances[n];
+    lengths[i] = factor * sum / static_cast<double>(distances.size() - 1);
+  }
+  return lengths;
+}
+
+#define INSTANTIATE(dim)                                                                                     \
+  template class Particles<dim>;                                                                             \
+  template std::vector<double> smoothing_lengths_by_nearest<dim>(std::span<const Point<dim>>, double);       \
+  template std::vector<double> smoothing_lengths_by_mean<dim>(std::span<const Point<dim>>, int, double);
+INSTANTIATE(1)
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+
+} // namespace meshless::cloud

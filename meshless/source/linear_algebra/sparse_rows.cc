@@ -1,0 +1,79 @@
+#include "meshless/linear_algebra/sparse_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace meshless::linear_algebra {
+
+void SparseRows::reserve(std::size_t n_entries)
+{
+  columns_.reserve(n_entries);
+  values_.reserve(n_entries);
+}
+
+void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<const double> values)
+{
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (values[k] != 0) {
+      columns_.push_back(columns[k]);
+      values_.push_back(values[k]);
+    }
+  offsets_.push_back(static_cast<std::int64_t>(columns_.size()));
+}
+
+std::vector<double> SparseRows::equilibrate_rows()
+{
+  std::vector<double> divisors(static_cast<std::size_t>(n_rows()));
+  for (std::size_t row = 0; row < divisors.size(); ++row) {
+    double largest = 0;
+    for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k) {
+      const double entry = std::abs(values_[static_cast<std::size_t>(k)]);
+      if (!std::isfinite(entry))
+        throw std::runtime_error(fmt::format("row {} of the system has an entry that is not finite", row));
+      largest = std::max(largest, entry);
+    }
+    if (largest == 0)
+      throw std::runtime_error(fmt::format("row {} of the system is zero", row));
+    for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k)
+      values_[static_cast<std::size_t>(k)] /= largest;
+    divisors[row] = largest;
+  }
+  return divisors;
+}
+
+void SparseRows::multiply(std::span<const double> x, std::span<double> y) const
+{
+  for (std::size_t row = 0; row + 1 < offsets_.size(); ++row) {
+    double sum = 0;
+    for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k)
+      sum += values_[static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(columns_[static_cast<std::size_t>(k)])];
+    y[row] = sum;
+  }
+}
+
+double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b)
+{
+  std::vector<double> product(b.size());
+  matrix.multiply(x, product);
+  double residual = 0;
+  double right = 0;
+  double norm = 0;
+  double solution = 0;
+  for (std::size_t row = 0; row < b.size(); ++row) {
+    residual = std::max(residual, std::abs(b[row] - product[row]));
+    right = std::max(right, std::abs(b[row]));
+    double sum = 0;
+    for (auto k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
+      sum += std::abs(matrix.values()[static_cast<std::size_t>(k)]);
+    norm = std::max(norm, sum);
+  }
+  for (const double value : x)
+    solution = std::max(solution, std::abs(value));
+  const double scale = norm * solution + right;
+  return scale > 0 ? residual / scale : 0;
+}
+
+} // namespace meshless::linear_algebra
