@@ -1,0 +1,71 @@
+#pragma once
+
+#include "comparisons/scene/diagnostics.h"
+#include "comparisons/scene/parameters.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace comparisons::scene {
+
+/// One resolution: counts along the axes ("16x4"), one count (188), or a spacing in metres ("5 mm").
+struct Level {
+  std::vector<int> counts;
+  std::optional<double> spacing;
+  /// As printed in tables: "16x4", "188", "0.005 m".
+  std::string text;
+
+  friend bool operator==(const Level &a, const Level &b) { return a.text == b.text; }
+};
+
+/// One method with one combination of parameters: a row of cells, one a level.
+struct MethodRequest {
+  std::string name;
+  /// Unique within the scene: the key `label`, or the name with the keys that vary
+  /// ("weak1", "weak1 order=2").
+  std::string label;
+  Parameters parameters;
+  /// The method's own levels, else the study's.
+  std::vector<Level> levels;
+  /// "ok" or "refused": the outcome that the scene declares as expected.
+  std::string expect = "ok";
+  /// If not empty: the scene calls for an effect that this method cannot do; its cells are
+  /// refused with this reason before any computing.
+  std::string refused;
+  /// Place of the [[method]] header.
+  Location location;
+};
+
+/// The problem's parameters; a list in [problem] makes one variant per combination.
+struct ProblemVariant {
+  Parameters parameters;
+  /// Empty if nothing varies, else "jitter=0.25".
+  std::string label;
+};
+
+struct Scene {
+  std::string file;
+  std::string title;
+  std::string benchmark;
+  /// Name of the scene within its benchmark: the file's stem.
+  std::string name;
+  Parameters material;
+  std::vector<ProblemVariant> problems;
+  /// Names of the effects called for, sorted.
+  std::vector<std::string> effects;
+  std::vector<MethodRequest> methods;
+  /// Without the levels.
+  Parameters study;
+  /// [study] levels; empty if every method has its own.
+  std::vector<Level> levels;
+  /// Without the formats.
+  Parameters output;
+  /// [output] formats, validated.
+  std::vector<std::string> formats;
+  /// Hash (FNV-1a, 64 bit, hexadecimal) of the file's bytes and the overrides.
+  std::string hash;
+};
+
+} // namespace comparisons::scene

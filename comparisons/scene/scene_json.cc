@@ -1,0 +1,59 @@
+#include "comparisons/scene/reader.h"
+
+namespace comparisons::scene {
+
+namespace {
+
+nlohmann::ordered_json to_json(const Value &value) {
+  return std::visit([](const auto &v) { return nlohmann::ordered_json(v); }, value);
+}
+
+nlohmann::ordered_json to_json(const Parameters &parameters) {
+  auto json = nlohmann::ordered_json::object();
+  for (const Parameter &parameter : parameters.all())
+    json[parameter.declaration.name] = to_json(parameter.value);
+  return json;
+}
+
+nlohmann::ordered_json to_json(const std::vector<Level> &levels) {
+  auto json = nlohmann::ordered_json::array();
+  for (const Level &level : levels)
+    json.push_back(level.text);
+  return json;
+}
+
+} // namespace
+
+nlohmann::ordered_json to_json(const Scene &scene) {
+  nlohmann::ordered_json json;
+  json["schema"] = 1;
+  json["title"] = scene.title;
+  json["benchmark"] = scene.benchmark;
+  json["name"] = scene.name;
+  json["file"] = scene.file;
+  json["hash"] = scene.hash;
+  json["problem"] = nlohmann::ordered_json::array();
+  for (const ProblemVariant &variant : scene.problems)
+    json["problem"].push_back({{"label", variant.label}, {"parameters", to_json(variant.parameters)}});
+  json["material"] = to_json(scene.material);
+  json["effects"] = scene.effects;
+  json["methods"] = nlohmann::ordered_json::array();
+  for (const MethodRequest &request : scene.methods) {
+    nlohmann::ordered_json method{{"name", request.name},
+                                  {"label", request.label},
+                                  {"expect", request.expect},
+                                  {"levels", to_json(request.levels)},
+                                  {"parameters", to_json(request.parameters)}};
+    if (!request.refused.empty())
+      method["refused"] = request.refused;
+    json["methods"].push_back(std::move(method));
+  }
+  json["study"] = nlohmann::ordered_json::object();
+  json["study"]["levels"] = to_json(scene.levels);
+  json["study"].update(to_json(scene.study));
+  json["output"] = to_json(scene.output);
+  json["output"]["formats"] = scene.formats;
+  return json;
+}
+
+} // namespace comparisons::scene

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "comparisons/scene/declaration.h"
+#include "comparisons/scene/diagnostics.h"
+#include "comparisons/scene/scene.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace comparisons::scene {
+
+/// What a method or benchmark sees when it checks a cell of a scene before any computing.
+struct CheckContext {
+  const Parameters &material;
+  const Parameters &problem;
+  const Parameters &method;
+  const Level &level;
+  /// Key prefix for diagnostics about the method, e.g. "method[2]".
+  std::string method_key;
+};
+
+using Check = std::function<void(const CheckContext &, Diagnostics &)>;
+
+/// A method as the scene reader knows it.
+struct MethodDescription {
+  std::string name;
+  std::string meaning;
+  std::vector<Declaration> parameters;
+  /// Effects that it can do.
+  std::vector<std::string> effects;
+  /// Cross-checks between keys; may be empty. Called for every variant, method and level;
+  /// the same finding is reported once.
+  Check check;
+};
+
+/// A benchmark as the scene reader knows it.
+struct BenchmarkDescription {
+  std::string name;
+  std::string meaning;
+  std::vector<Declaration> problem;
+  /// With the paper's values as defaults.
+  std::vector<Declaration> material;
+  /// Effects that are active when a scene has no [effects] table.
+  std::vector<std::string> effects;
+  /// Checks problem, material and level (the context's `method` is empty).
+  Check check;
+  /// 1: levels are one count; 2: "16x4"; a spacing is allowed for both.
+  int counts_per_level = 2;
+};
+
+/// One of a closed list of names with a line of meaning.
+struct NamedMeaning {
+  std::string name;
+  std::string meaning;
+};
+
+/// All names that a scene may use; assembled from the visible tables of methods, benchmarks,
+/// kernels, bases and effects. Passed as an argument, never global.
+struct Vocabulary {
+  std::vector<MethodDescription> methods;
+  std::vector<BenchmarkDescription> benchmarks;
+  std::vector<NamedMeaning> effects;
+  std::vector<NamedMeaning> kernels;
+  std::vector<NamedMeaning> bases;
+  std::vector<NamedMeaning> formats;
+};
+
+} // namespace comparisons::scene
