@@ -48,6 +48,9 @@ if(PETROV_HAS_GOLD)
   add_link_options(-fuse-ld=gold)
 endif()
 
+# A program that uses nothing of deal.II must not load it.
+add_link_options(-Wl,--as-needed)
+
 if(PETROV_SANITIZE)
   # -O1: at -O0 the sanitized tests take too long.
   add_compile_options(-fsanitize=${PETROV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined -O1)

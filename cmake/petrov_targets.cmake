@@ -29,7 +29,8 @@ function(petrov_describe_build target)
   set(command ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D HEADER=${folder}/petrov_commit.h
     -P ${PROJECT_SOURCE_DIR}/cmake/write_commit.cmake)
   execute_process(COMMAND ${command} COMMAND_ERROR_IS_FATAL ANY)
-  add_custom_target(petrov_commit COMMAND ${command} BYPRODUCTS ${folder}/petrov_commit.h VERBATIM)
+  add_custom_target(petrov_commit COMMAND ${command} BYPRODUCTS ${folder}/petrov_commit.h
+    COMMENT "Reading the commit" VERBATIM)
   add_dependencies(${target} petrov_commit)
   target_include_directories(${target} PUBLIC ${folder})
 
