@@ -221,15 +221,14 @@ void measure_residual(const linear_algebra::BlockMatrix &matrix,
                                        maximum_norm(right_hand_side));
 }
 
-std::vector<double> solve_linear(LinearSolver solver,
-                                 const linear_algebra::BlockMatrix &matrix,
-                                 const std::vector<double> &right_hand_side,
-                                 const Discretisation &discretisation)
+std::unique_ptr<linear_algebra::DirectSolver> factorise(LinearSolver solver,
+                                                        const linear_algebra::BlockMatrix &matrix,
+                                                        const Discretisation &discretisation)
 {
   try
   {
-    return solver == LinearSolver::cholesky ? linear_algebra::solve_cholesky(matrix, right_hand_side)
-                                            : linear_algebra::solve_umfpack(matrix, right_hand_side);
+    return solver == LinearSolver::cholesky ? linear_algebra::factorise_cholesky(matrix)
+                                            : linear_algebra::factorise_umfpack(matrix);
   }
   catch (const linear_algebra::PivotFailure &failure)
   {
@@ -248,6 +247,31 @@ std::vector<double> solve_linear(LinearSolver solver,
       where,
       failure.reason));
   }
+}
+/// The prescribed values to the last bit: the factorisation returns them with rounding.
+void impose(const EssentialData &essential, std::vector<double> &displacement)
+{
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    if (essential.prescribed[i] != 0)
+      displacement[i] = essential.values[i];
+}
+
+/// One step of iterative refinement with the accurate residual.
+void correct(const Discretisation &discretisation,
+             const Material &material,
+             const std::vector<double> &load,
+             const EssentialData &essential,
+             linear_algebra::DirectSolver &solver,
+             std::vector<double> &displacement)
+{
+  auto residual = residual_by_cells(discretisation, material, displacement, load);
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (essential.prescribed[i] != 0)
+      residual[i] = 0;
+  const auto correction = solver.solve(residual);
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    if (essential.prescribed[i] == 0)
+      displacement[i] += correction[i];
 }
 } // namespace
 
@@ -270,18 +294,19 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options)
 
   const auto essential = essential_data(problem, discretisation);
   assemble_stiffness(discretisation, problem.material, matrix);
-  auto right_hand_side = load_vector(problem, discretisation);
+  const auto load = load_vector(problem, discretisation);
+  auto right_hand_side = load;
   eliminate(essential, matrix, right_hand_side);
   seconds.assembly = stopwatch.lap();
 
-  solution->values = solve_linear(options.solver, matrix, right_hand_side, discretisation);
+  const auto solver = factorise(options.solver, matrix, discretisation);
+  solution->values = solver->solve(right_hand_side);
+  impose(essential, solution->values);
+  for (int step = 0; step < options.corrections; ++step)
+    correct(discretisation, problem.material, load, essential, *solver, solution->values);
   for (std::size_t i = 0; i < solution->values.size(); ++i)
-  {
-    if (essential.prescribed[i] != 0)
-      solution->values[i] = essential.values[i]; // to the last bit
     if (!std::isfinite(solution->values[i]))
       throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
-  }
   measure_residual(matrix, right_hand_side, *solution);
   solution->nonzeros = 2 * matrix.n_nonzeros_lower() - static_cast<std::size_t>(matrix.n_rows());
   solution->contradicted = essential.contradicted;

@@ -49,6 +49,52 @@ struct PaddedTable
   std::array<double, n_points> weight{};
 };
 
+template <int degree>
+using NodeRow = typename PaddedTable<degree>::Row;
+
+/// Gradients of the shape functions in space at one quadrature point. Returns JxW, not positive if the
+/// cell is inverted there.
+template <int degree>
+double map_gradients(const PaddedTable<degree> &table,
+                     int q,
+                     const NodeRow<degree> &x1,
+                     const NodeRow<degree> &x2,
+                     NodeRow<degree> &g1,
+                     NodeRow<degree> &g2)
+{
+  const auto &d1 = table.gradient_1[q];
+  const auto &d2 = table.gradient_2[q];
+  double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
+  for (int a = 0; a < GradientProducts<degree>::n_nodes; ++a)
+  {
+    j11 += x1[a] * d1[a];
+    j12 += x1[a] * d2[a];
+    j21 += x2[a] * d1[a];
+    j22 += x2[a] * d2[a];
+  }
+  const double determinant = j11 * j22 - j12 * j21;
+  const double inverse = 1 / determinant;
+  for (int a = 0; a < GradientProducts<degree>::stride; ++a)
+  {
+    g1[a] = (j22 * d1[a] - j21 * d2[a]) * inverse;
+    g2[a] = (j11 * d2[a] - j12 * d1[a]) * inverse;
+  }
+  return table.weight[q] * determinant;
+}
+
+template <int degree>
+void gather_positions(const Discretisation &discretisation,
+                      const unsigned *nodes,
+                      NodeRow<degree> &x1,
+                      NodeRow<degree> &x2)
+{
+  for (int a = 0; a < GradientProducts<degree>::n_nodes; ++a)
+  {
+    x1[a] = discretisation.positions[nodes[a]][0];
+    x2[a] = discretisation.positions[nodes[a]][1];
+  }
+}
+
 /// Returns false if the Jacobian is not positive at some quadrature point.
 template <int degree>
 bool integrate_cell(const PaddedTable<degree> &table,
@@ -58,39 +104,17 @@ bool integrate_cell(const PaddedTable<degree> &table,
 {
   constexpr int n = GradientProducts<degree>::n_nodes;
   constexpr int stride = GradientProducts<degree>::stride;
-  using Row = typename PaddedTable<degree>::Row;
-  alignas(64) Row x1{};
-  alignas(64) Row x2{};
-  for (int a = 0; a < n; ++a)
-  {
-    x1[a] = discretisation.positions[nodes[a]][0];
-    x2[a] = discretisation.positions[nodes[a]][1];
-  }
+  alignas(64) NodeRow<degree> x1{};
+  alignas(64) NodeRow<degree> x2{};
+  gather_positions<degree>(discretisation, nodes, x1, x2);
   products = {};
   for (int q = 0; q < table.n_points; ++q)
   {
-    const Row &d1 = table.gradient_1[q];
-    const Row &d2 = table.gradient_2[q];
-    double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
-    for (int a = 0; a < n; ++a)
-    {
-      j11 += x1[a] * d1[a];
-      j12 += x1[a] * d2[a];
-      j21 += x2[a] * d1[a];
-      j22 += x2[a] * d2[a];
-    }
-    const double determinant = j11 * j22 - j12 * j21;
-    if (!(determinant > 0))
+    alignas(64) NodeRow<degree> g1;
+    alignas(64) NodeRow<degree> g2;
+    const double jxw = map_gradients<degree>(table, q, x1, x2, g1, g2);
+    if (!(jxw > 0))
       return false;
-    const double inverse = 1 / determinant;
-    const double jxw = table.weight[q] * determinant;
-    alignas(64) Row g1;
-    alignas(64) Row g2;
-    for (int a = 0; a < stride; ++a)
-    {
-      g1[a] = (j22 * d1[a] - j21 * d2[a]) * inverse;
-      g2[a] = (j11 * d2[a] - j12 * d1[a]) * inverse;
-    }
     for (int a = 0; a < n; ++a)
     {
       const double w1 = jxw * g1[a];
@@ -142,6 +166,56 @@ void add_to_matrix(const GradientProducts<degree> &products,
 }
 
 template <int degree>
+void subtract_internal_forces(const Discretisation &discretisation,
+                              const Material &material,
+                              std::span<const double> displacement,
+                              std::vector<double> &residual)
+{
+  constexpr int n = GradientProducts<degree>::n_nodes;
+  constexpr int stride = GradientProducts<degree>::stride;
+  const PaddedTable<degree> table(ShapeTable(degree, degree + 1));
+  const double lambda = material.lambda();
+  const double mu = material.mu();
+  alignas(64) NodeRow<degree> x1{}, x2{}, u1{}, u2{}, f1, f2, g1, g2;
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
+  {
+    const unsigned *nodes = discretisation.nodes_of(c).data();
+    gather_positions<degree>(discretisation, nodes, x1, x2);
+    for (int a = 0; a < n; ++a)
+    {
+      u1[a] = displacement[2 * std::size_t{nodes[a]}] - displacement[2 * std::size_t{nodes[0]}];
+      u2[a] = displacement[2 * std::size_t{nodes[a]} + 1] - displacement[2 * std::size_t{nodes[0]} + 1];
+    }
+    f1.fill(0);
+    f2.fill(0);
+    for (int q = 0; q < table.n_points; ++q)
+    {
+      const double jxw = map_gradients<degree>(table, q, x1, x2, g1, g2);
+      double e11 = 0, e22 = 0, gamma = 0;
+      for (int a = 0; a < n; ++a)
+      {
+        e11 += g1[a] * u1[a];
+        e22 += g2[a] * u2[a];
+        gamma += g2[a] * u1[a] + g1[a] * u2[a];
+      }
+      const double s11 = jxw * (lambda * (e11 + e22) + 2 * mu * e11);
+      const double s22 = jxw * (lambda * (e11 + e22) + 2 * mu * e22);
+      const double s12 = jxw * mu * gamma;
+      for (int a = 0; a < stride; ++a)
+      {
+        f1[a] += s11 * g1[a] + s12 * g2[a];
+        f2[a] += s12 * g1[a] + s22 * g2[a];
+      }
+    }
+    for (int a = 0; a < n; ++a)
+    {
+      residual[2 * std::size_t{nodes[a]}] -= f1[a];
+      residual[2 * std::size_t{nodes[a]} + 1] -= f2[a];
+    }
+  }
+}
+
+template <int degree>
 void assemble(const Discretisation &discretisation,
               const Material &material,
               linear_algebra::BlockMatrix &matrix)
@@ -172,5 +246,21 @@ void assemble_stiffness(const Discretisation &discretisation,
     case 3: return assemble<3>(discretisation, material, matrix);
     default: return assemble<4>(discretisation, material, matrix);
   }
+}
+
+std::vector<double> residual_by_cells(const Discretisation &discretisation,
+                                      const Material &material,
+                                      std::span<const double> displacement,
+                                      std::span<const double> load)
+{
+  std::vector<double> residual(load.begin(), load.end());
+  switch (discretisation.degree)
+  {
+    case 1: subtract_internal_forces<1>(discretisation, material, displacement, residual); break;
+    case 2: subtract_internal_forces<2>(discretisation, material, displacement, residual); break;
+    case 3: subtract_internal_forces<3>(discretisation, material, displacement, residual); break;
+    default: subtract_internal_forces<4>(discretisation, material, displacement, residual); break;
+  }
+  return residual;
 }
 } // namespace fem_reference::elasticity

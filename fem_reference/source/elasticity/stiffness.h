@@ -12,4 +12,12 @@ namespace fem_reference::elasticity
 void assemble_stiffness(const Discretisation &discretisation,
                         const Material &material,
                         linear_algebra::BlockMatrix &matrix);
+
+/// load - K u, cell by cell from the stress, without the matrix. The displacement enters through its
+/// differences within each cell, so that the rounding error is that of the strain and not of u / h:
+/// one correction with this residual removes most of what a factorised matrix leaves.
+std::vector<double> residual_by_cells(const Discretisation &discretisation,
+                                      const Material &material,
+                                      std::span<const double> displacement,
+                                      std::span<const double> load);
 } // namespace fem_reference::elasticity

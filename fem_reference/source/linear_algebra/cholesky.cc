@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <suitesparse/cholmod.h>
 
@@ -11,11 +12,45 @@ namespace fem_reference::linear_algebra
 {
 namespace
 {
-/// CHOLMOD's workspace and the objects that must be freed through it.
-class Session
+/// One OpenMP thread for this scope. CHOLMOD asks for four in its own loops whatever OMP_NUM_THREADS
+/// says, which on few cores costs half of the factorisation's time; BLAS has its own setting. The
+/// function is looked up because it is CHOLMOD, not this library, that links OpenMP (or does not).
+class SerialOpenMp
 {
 public:
-  Session()
+  SerialOpenMp()
+    : get_levels_(find<int (*)()>("omp_get_max_active_levels"))
+    , set_levels_(find<void (*)(int)>("omp_set_max_active_levels"))
+    , levels_(get_levels_ != nullptr ? get_levels_() : 0)
+  {
+    if (set_levels_ != nullptr)
+      set_levels_(0);
+  }
+  ~SerialOpenMp()
+  {
+    if (set_levels_ != nullptr)
+      set_levels_(levels_);
+  }
+  SerialOpenMp(const SerialOpenMp &) = delete;
+  SerialOpenMp &operator=(const SerialOpenMp &) = delete;
+
+private:
+  template <typename Function>
+  static Function find(const char *name)
+  {
+    return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
+  }
+
+  int (*get_levels_)();
+  void (*set_levels_)(int);
+  int levels_;
+};
+
+/// CHOLMOD's workspace and factor, freed through it.
+class Cholesky : public DirectSolver
+{
+public:
+  Cholesky()
   {
     cholmod_start(&common_);
     common_.print = 0;
@@ -25,17 +60,15 @@ public:
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.final_ll = 1;
   }
-  ~Session()
+  ~Cholesky() override
   {
     cholmod_free_factor(&factor_, &common_);
     cholmod_finish(&common_);
   }
-  Session(const Session &) = delete;
-  Session &operator=(const Session &) = delete;
 
   std::vector<int> order_nodes(const BlockMatrix &matrix);
   void factorise(cholmod_sparse &matrix, std::vector<int> &permutation);
-  std::vector<double> solve(std::span<const double> right_hand_side);
+  std::vector<double> solve(std::span<const double> right_hand_side) override;
 
 private:
   void check(const char *step) const
@@ -72,7 +105,7 @@ cholmod_sparse view(int n, std::vector<int> &start, std::vector<int> &rows, doub
 
 /// AMD on the graph of nodes, four times smaller than that of the unknowns; both unknowns of a node
 /// stay together, which also helps the supernodes.
-std::vector<int> Session::order_nodes(const BlockMatrix &matrix)
+std::vector<int> Cholesky::order_nodes(const BlockMatrix &matrix)
 {
   auto start = matrix.block_start;
   auto rows = matrix.block_rows;
@@ -90,7 +123,7 @@ std::vector<int> Session::order_nodes(const BlockMatrix &matrix)
   return permutation;
 }
 
-void Session::factorise(cholmod_sparse &matrix, std::vector<int> &permutation)
+void Cholesky::factorise(cholmod_sparse &matrix, std::vector<int> &permutation)
 {
   factor_ = cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &common_);
   check("analysis");
@@ -105,8 +138,9 @@ void Session::factorise(cholmod_sparse &matrix, std::vector<int> &permutation)
     throw PivotFailure{-1, fmt::format("the reciprocal condition number is about {:.1e}", condition)};
 }
 
-std::vector<double> Session::solve(std::span<const double> right_hand_side)
+std::vector<double> Cholesky::solve(std::span<const double> right_hand_side)
 {
+  const SerialOpenMp serial;
   std::vector<double> copy(right_hand_side.begin(), right_hand_side.end());
   cholmod_dense b{};
   b.nrow = b.nzmax = b.d = copy.size();
@@ -123,16 +157,17 @@ std::vector<double> Session::solve(std::span<const double> right_hand_side)
 }
 } // namespace
 
-std::vector<double> solve_cholesky(const BlockMatrix &matrix, std::span<const double> right_hand_side)
+std::unique_ptr<DirectSolver> factorise_cholesky(const BlockMatrix &matrix)
 {
-  Session session;
-  auto permutation = session.order_nodes(matrix);
+  const SerialOpenMp serial;
+  auto solver = std::make_unique<Cholesky>();
+  auto permutation = solver->order_nodes(matrix);
   std::vector<int> start;
   std::vector<int> rows;
   matrix.scalar_pattern(start, rows);
   // CHOLMOD takes a mutable pointer but only reads.
   cholmod_sparse sparse = view(matrix.n_rows(), start, rows, const_cast<double *>(matrix.values.data()));
-  session.factorise(sparse, permutation);
-  return session.solve(right_hand_side);
+  solver->factorise(sparse, permutation);
+  return solver;
 }
 } // namespace fem_reference::linear_algebra

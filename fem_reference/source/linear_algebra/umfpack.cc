@@ -66,56 +66,71 @@ void check(SuiteSparse_long status, const char *step)
     throw SolveFailure(fmt::format("UMFPACK: error {} in {}", status, step));
 }
 
-/// UMFPACK's factor objects, freed in any case.
-struct Factors
+class LuFactors : public DirectSolver
 {
-  Factors() = default;
-  Factors(const Factors &) = delete;
-  Factors &operator=(const Factors &) = delete;
-  ~Factors()
+public:
+  explicit LuFactors(const BlockMatrix &matrix)
+    : matrix_(expand(matrix))
   {
-    umfpack_dl_free_symbolic(&symbolic);
-    umfpack_dl_free_numeric(&numeric);
+    umfpack_dl_defaults(control_.data());
+    control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+    control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+    control_[UMFPACK_IRSTEP] = 0; // refinement is the caller's
+    factorise(matrix.n_rows());
   }
-  void *symbolic = nullptr;
-  void *numeric = nullptr;
+  ~LuFactors() override
+  {
+    umfpack_dl_free_symbolic(&symbolic_);
+    umfpack_dl_free_numeric(&numeric_);
+  }
+  std::vector<double> solve(std::span<const double> right_hand_side) override;
+
+private:
+  void factorise(SuiteSparse_long n);
+
+  FullMatrix matrix_; // UMFPACK's substitution asks for it
+  std::array<double, UMFPACK_CONTROL> control_{};
+  void *symbolic_ = nullptr;
+  void *numeric_ = nullptr;
 };
-} // namespace
 
-std::vector<double> solve_umfpack(const BlockMatrix &matrix, std::span<const double> right_hand_side)
+void LuFactors::factorise(SuiteSparse_long n)
 {
-  const FullMatrix full = expand(matrix);
-  const SuiteSparse_long n = matrix.n_rows();
-  const auto *start = full.start.data();
-  const auto *rows = full.rows.data();
-  const auto *values = full.values.data();
-  std::array<double, UMFPACK_CONTROL> control{};
   std::array<double, UMFPACK_INFO> info{};
-  umfpack_dl_defaults(control.data());
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
-  control[UMFPACK_IRSTEP] = 0; // as Cholesky: no refinement
-
-  Factors factors;
-  check(umfpack_dl_symbolic(n, n, start, rows, values, &factors.symbolic, control.data(), info.data()),
-        "ordering");
-  check(umfpack_dl_numeric(
-          start, rows, values, factors.symbolic, &factors.numeric, control.data(), info.data()),
-        "factorisation");
-  // The ratio is that of pivots, as in Cholesky after squaring.
+  const auto *start = matrix_.start.data();
+  const auto *rows = matrix_.rows.data();
+  const auto *values = matrix_.values.data();
+  const auto symbolic_status =
+    umfpack_dl_symbolic(n, n, start, rows, values, &symbolic_, control_.data(), info.data());
+  check(symbolic_status, "ordering");
+  const auto numeric_status =
+    umfpack_dl_numeric(start, rows, values, symbolic_, &numeric_, control_.data(), info.data());
+  check(numeric_status, "factorisation");
+  // The ratio of the extreme pivots, as for Cholesky after squaring.
   if (!(info[UMFPACK_RCOND] > 1e-14))
     throw PivotFailure{-1, fmt::format("the reciprocal condition number is about {:.1e}", info[UMFPACK_RCOND])};
+}
+
+std::vector<double> LuFactors::solve(std::span<const double> right_hand_side)
+{
+  std::array<double, UMFPACK_INFO> info{};
   std::vector<double> solution(right_hand_side.size());
-  check(umfpack_dl_solve(UMFPACK_A,
-                         start,
-                         rows,
-                         values,
-                         solution.data(),
-                         right_hand_side.data(),
-                         factors.numeric,
-                         control.data(),
-                         info.data()),
-        "substitution");
+  const auto status = umfpack_dl_solve(UMFPACK_A,
+                                       matrix_.start.data(),
+                                       matrix_.rows.data(),
+                                       matrix_.values.data(),
+                                       solution.data(),
+                                       right_hand_side.data(),
+                                       numeric_,
+                                       control_.data(),
+                                       info.data());
+  check(status, "substitution");
   return solution;
+}
+} // namespace
+
+std::unique_ptr<DirectSolver> factorise_umfpack(const BlockMatrix &matrix)
+{
+  return std::make_unique<LuFactors>(matrix);
 }
 } // namespace fem_reference::linear_algebra
