@@ -1,0 +1,180 @@
+#include "comparisons/reports/comparison_section.h"
+
+#include "comparisons/reports/numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace comparisons::reports {
+
+namespace {
+
+constexpr const char *main_error = "displacement_l2_relative";
+constexpr std::array<const char *, 4> compared{main_error, "displacement_log10_E", "u2_max_relative",
+                                               "stress_l2_relative"};
+
+std::string count(const Cell &cell, std::int64_t number) {
+  return number > 0 || cell.status == Status::ok ? fmt::format("{}", number) : no_number;
+}
+
+Table comparison_table(const Group &group) {
+  Table table({{"method", Align::left, true},
+               {"level", Align::left},
+               {"points"},
+               {"dofs"},
+               {"u L2\nrelative"},
+               {"rate"},
+               {"log10 E"},
+               {"u2 max\nrelative"},
+               {"stress L2\nrelative"},
+               {"total\ns"},
+               {"memory\nMB"},
+               {"status", Align::left, true}});
+  const bool one_level = !group.common_level().empty();
+  const bool all_ok =
+      std::all_of(group.cells.begin(), group.cells.end(), [](const Cell *cell) { return status_text(*cell) == "ok"; });
+  for (const Cell *cell : group.cells) {
+    const bool ok = cell->status == Status::ok;
+    table.add_row({cell->label, one_level ? no_number : cell->level, count(*cell, cell->n_points),
+                   count(*cell, cell->n_dofs), scientific(reportable(*cell, compared[0])),
+                   rate(observed_rate(group, *cell, main_error)), logarithm(reportable(*cell, compared[1])),
+                   scientific(reportable(*cell, compared[2])), scientific(reportable(*cell, compared[3])),
+                   ok ? seconds(median_seconds(*cell, "total")) : no_number,
+                   ok ? megabytes(cell->memory_bytes) : no_number, all_ok ? no_number : status_text(*cell)});
+  }
+  table.drop_columns_without(no_number);
+  return table;
+}
+
+std::vector<std::string> reasons(const Group &group) {
+  std::vector<std::string> items;
+  for (const Cell *cell : group.cells) {
+    if (cell->status != Status::ok || !cell->expected)
+      items.push_back(fmt::format("{}: {}{}", cell_name(*cell), status_text(*cell),
+                                  cell->reason.empty() ? std::string() : ": " + cell->reason));
+    for (const std::string &warning : cell->warnings)
+      items.push_back(fmt::format("{}: {}", cell_name(*cell), warning));
+  }
+  return items;
+}
+
+/// Long names are broken so that several columns fit.
+std::string header_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '\n');
+  return name;
+}
+
+bool is_compared(const std::string &name) {
+  return std::find(compared.begin(), compared.end(), name) != compared.end();
+}
+
+std::vector<std::string> further_names(const Group &group) {
+  std::set<std::string> names;
+  for (const Cell *cell : group.cells)
+    for (const auto *map : {&cell->errors, &cell->quantities})
+      for (const auto &entry : *map)
+        if (!is_compared(entry.first) && reportable(*cell, entry.first))
+          names.insert(entry.first);
+  return {names.begin(), names.end()};
+}
+
+Table further_table(const Group &group, const std::vector<std::string> &names) {
+  std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
+  for (const std::string &name : names)
+    columns.push_back({header_of(name)});
+  Table table(columns);
+  for (const Cell *cell : group.cells) {
+    if (cell->status != Status::ok)
+      continue;
+    std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number};
+    for (const std::string &name : names)
+      row.push_back(by_name(name, reportable(*cell, name)));
+    table.add_row(std::move(row));
+  }
+  table.drop_columns_without(no_number);
+  return table;
+}
+
+} // namespace
+
+std::string status_text(const Cell &cell) {
+  const std::string status = to_text(cell.status);
+  if (cell.expected)
+    return cell.status == Status::ok ? status : status + " (expected)";
+  return status + " (UNEXPECTED)";
+}
+
+void append_comparison(Document &document, const std::vector<Group> &groups) {
+  document.push_back(Heading{2, "Comparison"});
+  if (groups.empty())
+    document.push_back(Paragraph{"No cells were computed."});
+  for (const Group &group : groups) {
+    document.push_back(Heading{3, group.title()});
+    document.push_back(comparison_table(group));
+    if (std::vector<std::string> items = reasons(group); !items.empty())
+      document.push_back(Bullets{std::move(items)});
+  }
+}
+
+void append_phases(Document &document, const std::vector<Group> &groups) {
+  document.push_back(Heading{2, "Seconds by phase"});
+  for (const Group &group : groups) {
+    std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
+    for (const char *phase : phases)
+      columns.push_back({phase});
+    columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"repeats"}});
+    Table table(columns);
+    for (const Cell *cell : group.cells) {
+      if (cell->status != Status::ok || cell->seconds.empty())
+        continue;
+      std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number};
+      for (const char *phase : phases)
+        row.push_back(seconds(median_seconds(*cell, phase)));
+      const auto total = cell->seconds.find("total");
+      const bool timed = total != cell->seconds.end();
+      row.push_back(timed ? seconds(total->second.minimum) : no_number);
+      row.push_back(timed ? seconds(total->second.maximum) : no_number);
+      row.push_back(fmt::format("{}", cell->repeats));
+      table.add_row(std::move(row));
+    }
+    if (table.rows().empty())
+      continue;
+    table.drop_columns_without(no_number);
+    document.push_back(Heading{3, group.title()});
+    document.push_back(std::move(table));
+  }
+}
+
+void append_further_quantities(Document &document, const std::vector<Group> &groups) {
+  constexpr std::size_t names_per_table = 6;
+  bool has_heading = false;
+  for (const Group &group : groups) {
+    const std::vector<std::string> names = further_names(group);
+    for (std::size_t begin = 0; begin < names.size(); begin += names_per_table) {
+      if (!has_heading)
+        document.push_back(Heading{2, "Further errors and quantities"});
+      has_heading = true;
+      if (begin == 0)
+        document.push_back(Heading{3, group.title()});
+      const std::size_t end = std::min(names.size(), begin + names_per_table);
+      document.push_back(further_table(group, {names.begin() + static_cast<std::ptrdiff_t>(begin),
+                                               names.begin() + static_cast<std::ptrdiff_t>(end)}));
+    }
+  }
+}
+
+void append_equal_error(Document &document, const Results &results) {
+  if (results.equal_error.empty())
+    return;
+  document.push_back(Heading{2, "Seconds for equal errors"});
+  Table table(
+      {{"error", Align::left}, {"target"}, {"method", Align::left, true}, {"seconds"}, {"why not", Align::left, true}});
+  for (const EqualError &entry : results.equal_error)
+    table.add_row({entry.error, scientific(entry.target), entry.method, seconds(entry.seconds), entry.reason});
+  table.drop_columns_without("");
+  document.push_back(std::move(table));
+}
+
+} // namespace comparisons::reports

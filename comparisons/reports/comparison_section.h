@@ -1,0 +1,20 @@
+#pragma once
+
+#include "comparisons/reports/groups.h"
+#include "comparisons/reports/table.h"
+
+namespace comparisons::reports {
+
+/// Errors, total seconds and memory, one table a group, the reasons of cells that are not ok below it.
+void append_comparison(Document &document, const std::vector<Group> &groups);
+/// Seconds by phase.
+void append_phases(Document &document, const std::vector<Group> &groups);
+/// Errors and quantities that the comparison does not show.
+void append_further_quantities(Document &document, const std::vector<Group> &groups);
+/// Seconds for equal errors.
+void append_equal_error(Document &document, const Results &results);
+
+/// "ok", "refused (expected)", "failed (UNEXPECTED)".
+std::string status_text(const Cell &cell);
+
+} // namespace comparisons::reports

@@ -1,0 +1,152 @@
+#include "comparisons/reports/reports.h"
+
+#include "comparisons/reports/comparison_section.h"
+#include "comparisons/reports/files.h"
+#include "comparisons/reports/json.h"
+#include "comparisons/reports/ledger_section.h"
+#include "comparisons/reports/numbers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace comparisons::reports {
+
+namespace {
+
+void append_header(Document &document, const Results &results, const std::vector<Group> &groups) {
+  std::vector<std::string> benchmarks;
+  for (const Group &group : groups)
+    if (std::find(benchmarks.begin(), benchmarks.end(), group.benchmark) == benchmarks.end())
+      benchmarks.push_back(group.benchmark);
+  const Program &program = results.program;
+  const Machine &machine = results.machine;
+  document.push_back(Heading{1, fmt::format("{}: {}", program.name, fmt::join(benchmarks, ", "))});
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("program: {} {}, commit {}, {} build, flags {}", program.name, program.version,
+                              program.commit, program.build_type, program.flags));
+  lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}", machine.cpu, machine.cores,
+                              megabytes(machine.memory_bytes), significant(machine.load)));
+  lines.push_back(
+      fmt::format("threads: {}, BLAS: {}, SIMD lanes: {}", machine.threads, machine.blas, machine.simd_lanes));
+  std::vector<std::string> libraries;
+  for (const auto &[name, version] : machine.libraries)
+    libraries.push_back(name + " " + version);
+  if (!libraries.empty())
+    lines.push_back(fmt::format("libraries: {}", fmt::join(libraries, ", ")));
+  if (!results.effects_active.empty())
+    lines.push_back(fmt::format("effects: {}; neither computed nor allocated: {}",
+                                fmt::join(results.effects_active, ", "), fmt::join(results.effects_absent, ", ")));
+  document.push_back(Bullets{std::move(lines)});
+  for (const std::string &reason : results.not_comparable)
+    document.push_back(Alarm{"NOT COMPARABLE: " + reason});
+  if (results.interrupted)
+    document.push_back(Alarm{"INTERRUPTED: the cells that had not been computed are missing."});
+}
+
+void append_reading_aid(Document &document) {
+  document.push_back(Paragraph{
+      "Errors are relative to the exact solution, on one quadrature for all methods; judge by the L2 norm. log10 E is "
+      "the "
+      "difference of two norms as printed in the paper, not an error norm. Rates are observed between a level and the "
+      "one before. Seconds are medians over the repeats; 'total' is points, neighbours, basis, assembly, solve and "
+      "recovery, and excludes the evaluation of errors. Memory is the peak of the cell alone."});
+}
+
+void append_unexpected(Document &document, const Results &results) {
+  const std::vector<std::string> outcomes = unexpected_outcomes(results);
+  if (outcomes.empty()) {
+    document.push_back(Paragraph{"No unexpected outcomes."});
+    return;
+  }
+  document.push_back(Heading{2, fmt::format("UNEXPECTED OUTCOMES ({})", outcomes.size())});
+  for (const std::string &outcome : outcomes)
+    document.push_back(Alarm{outcome});
+}
+
+Document report_document(const Results &results) {
+  const std::vector<Group> groups = group_cells(results);
+  Document document;
+  append_header(document, results, groups);
+  append_reading_aid(document);
+  append_comparison(document, groups);
+  append_ledger(document, results);
+  append_equal_error(document, results);
+  append_phases(document, groups);
+  append_further_quantities(document, groups);
+  std::size_t n_series = 0;
+  for (const Cell &cell : results.cells)
+    n_series += cell.series.size();
+  if (n_series > 0)
+    document.push_back(Paragraph{fmt::format(
+        "Curves and fields written beside the results: {}; the cells of results.json name them.", n_series)});
+  append_unexpected(document, results);
+  return document;
+}
+
+std::string published_line(const Published &entry) {
+  std::string text = fmt::format("{}, {}", entry.source, entry.entry);
+  if (!entry.method.empty())
+    text += fmt::format(" ({}{}{})", entry.method, entry.level.empty() ? "" : ", ", entry.level);
+  text += ": " + verdict_text(entry);
+  if (entry.published && entry.computed)
+    text += fmt::format(": {} published {}, computed {}, tolerance {}", entry.quantity, exact(entry.published),
+                        significant(entry.computed), significant(entry.tolerance));
+  return entry.finding.empty() ? text : text + ": " + entry.finding;
+}
+
+} // namespace
+
+std::vector<std::string> unexpected_outcomes(const Results &results) {
+  std::vector<std::string> outcomes;
+  for (const Cell &cell : results.cells)
+    if (!cell.expected)
+      outcomes.push_back(fmt::format("{} / {}{}{}, {}: {}{}{}", cell.benchmark, cell.scene,
+                                     cell.variant.empty() ? "" : ", ", cell.variant, cell_name(cell), status_text(cell),
+                                     cell.reason.empty() ? "" : ": ", cell.reason));
+  for (const Published &entry : results.published)
+    if (!entry.expected)
+      outcomes.push_back(published_line(entry));
+  return outcomes;
+}
+
+std::string text_report(const Results &results) { return render_text(report_document(results)); }
+
+std::string markdown_report(const Results &results) { return render_markdown(report_document(results)); }
+
+const std::vector<std::string> &report_formats() {
+  static const std::vector<std::string> formats{"text", "markdown", "csv", "json"};
+  return formats;
+}
+
+std::vector<std::filesystem::path> write_reports(const Results &results, const std::filesystem::path &directory,
+                                                 const std::vector<std::string> &formats, const std::string &stem) {
+  const std::vector<std::string> &known = report_formats();
+  for (const std::string &format : formats)
+    if (std::find(known.begin(), known.end(), format) == known.end())
+      throw std::invalid_argument(
+          fmt::format("unknown report format '{}'; known are {}", format, fmt::join(known, ", ")));
+  prepare_output_directory(directory);
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const std::string &ending, const std::string &contents) {
+    files.push_back(directory / (stem + ending));
+    write_file_atomically(files.back(), contents);
+  };
+  for (const std::string &format : formats) {
+    if (format == "text")
+      write(".txt", text_report(results));
+    else if (format == "markdown")
+      write(".md", markdown_report(results));
+    else if (format == "json")
+      write(".json", json_text(results));
+    else
+      write(".csv", csv_report(results));
+    if (format == "csv" && !results.published.empty())
+      write("_published.csv", csv_published(results));
+  }
+  return files;
+}
+
+} // namespace comparisons::reports

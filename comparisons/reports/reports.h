@@ -1,0 +1,40 @@
+#pragma once
+
+#include "comparisons/reports/results.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace comparisons::reports {
+
+// The same results always give the same bytes; nothing here reads a clock or the machine.
+
+/// Aligned tables for the terminal, at most 120 columns where the words allow it. The main comparison comes first,
+/// unexpected outcomes last.
+std::string text_report(const Results &results);
+
+/// The same content in Markdown.
+std::string markdown_report(const Results &results);
+
+/// Tidy table: a header and one row for every cell and number, in full digits. A cell that is not ok has one row with
+/// an empty value and its reason. Fields follow RFC 4180, lines end in '\n'.
+std::string csv_report(const Results &results);
+
+/// The ledger as CSV, one row an entry.
+std::string csv_published(const Results &results);
+
+/// The formats that write_reports knows: text (stem.txt), markdown (stem.md), csv (stem.csv and, with published
+/// numbers, stem_published.csv), json (stem.json).
+const std::vector<std::string> &report_formats();
+
+/// Writes the formats asked for into `directory`, each file atomically, and returns their paths in the order of
+/// writing. The directory is made if it does not exist. Throws OutputError, and std::invalid_argument for an unknown
+/// format before anything is written.
+std::vector<std::filesystem::path> write_reports(const Results &results, const std::filesystem::path &directory,
+                                                 const std::vector<std::string> &formats, const std::string &stem);
+
+/// Unexpected outcomes, one line each: cells first, then published numbers; empty if all is as expected.
+std::vector<std::string> unexpected_outcomes(const Results &results);
+
+} // namespace comparisons::reports

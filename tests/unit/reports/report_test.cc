@@ -1,0 +1,145 @@
+#include "comparisons/reports/reports.h"
+
+#include "comparisons/reports/groups.h"
+#include "comparisons/reports/json.h"
+#include "comparisons/reports/ledger_section.h"
+#include "comparisons/reports/table.h"
+#include "unit/reports/sample.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace comparisons::reports;
+
+namespace {
+
+bool contains(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
+
+std::vector<std::string> lines_of(const std::string &text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+} // namespace
+
+TEST(Reports, SameResultsSameBytes) {
+  const Results results = reports_sample::results();
+  const Results again = parse_results(json_text(results));
+  EXPECT_EQ(text_report(again), text_report(results));
+  EXPECT_EQ(markdown_report(again), markdown_report(results));
+  EXPECT_EQ(csv_report(again), csv_report(results));
+  EXPECT_EQ(csv_published(again), csv_published(results));
+}
+
+TEST(Reports, HeaderSaysWhatWasRunWhere) {
+  for (const std::string &report : {text_report(reports_sample::results()), markdown_report(reports_sample::results())})
+    for (const char *part : {"petrov 0.1.0", "commit 0123abc", "Release build", "Some CPU", "threads: 1",
+                             "OpenBLAS 0.3.21", "deal.II 9.4.1", "elasticity", "inertia, damping",
+                             "NOT COMPARABLE: the machine was loaded", "INTERRUPTED", "excludes the evaluation"})
+      EXPECT_TRUE(contains(report, part)) << part;
+}
+
+TEST(Reports, TerminalLinesAreAtMost120Wide) {
+  for (const std::string &line : lines_of(text_report(reports_sample::results())))
+    EXPECT_LE(display_width(line), 120u) << line;
+}
+
+TEST(Reports, MainComparisonFirstUnexpectedLast) {
+  const std::string text = text_report(reports_sample::results());
+  const auto main = text.find("cantilever / scene, 16x4\n");
+  const auto other = text.find("cantilever / convergence\n");
+  const auto ledger = text.find("Published numbers and claims");
+  const auto unexpected = text.find("UNEXPECTED OUTCOMES (2)");
+  EXPECT_LT(main, other);
+  EXPECT_LT(other, ledger);
+  EXPECT_LT(ledger, unexpected);
+  EXPECT_TRUE(contains(text.substr(unexpected), "*** cantilever / convergence, broken"));
+  EXPECT_TRUE(contains(text.substr(unexpected), "Table 10 (weak1, 16x4): differs (UNEXPECTED)"));
+}
+
+TEST(Reports, NothingUnexpectedIsSaid) {
+  Results results = reports_sample::results();
+  std::erase_if(results.cells, [](const Cell &cell) { return !cell.expected; });
+  std::erase_if(results.published, [](const Published &entry) { return !entry.expected; });
+  EXPECT_TRUE(unexpected_outcomes(results).empty());
+  EXPECT_TRUE(text_report(results).ends_with("No unexpected outcomes.\n"));
+  EXPECT_FALSE(contains(text_report(results), "UNEXPECTED"));
+}
+
+TEST(Reports, ACellThatIsNotOkShowsItsReasonAndNoNumbers) {
+  const std::string text = text_report(reports_sample::results());
+  EXPECT_TRUE(contains(text, "refused (expected)"));
+  EXPECT_TRUE(contains(text, "failed (UNEXPECTED)"));
+  EXPECT_TRUE(contains(text, "- weak1 order=4, 16x4: refused (expected): singular moment matrix at particle 7"));
+  EXPECT_FALSE(contains(text, "2.500e-01")); // the error that the sample's bad cells hold
+  EXPECT_FALSE(contains(text, "nan"));
+  EXPECT_FALSE(contains(text, "inf\n"));
+}
+
+TEST(Reports, AnOkThatShouldHaveBeenARefusalIsUnexpected) {
+  Results results;
+  results.cells.push_back(reports_sample::cell("scene", "weak1", "16x4", 0.1));
+  results.cells[0].expected = false;
+  EXPECT_TRUE(contains(text_report(results), "ok (UNEXPECTED)"));
+  EXPECT_EQ(unexpected_outcomes(results).size(), 1u);
+}
+
+TEST(Reports, LedgerSummary) {
+  Results results = reports_sample::results();
+  EXPECT_EQ(ledger_summary(results),
+            "1 of 3 published numbers reproduced; 1 claims hold, 1 do not (expected); 1 outcomes UNEXPECTED.");
+  results.published[2].expected = true;
+  EXPECT_EQ(ledger_summary(results), "1 of 3 published numbers reproduced; 1 claims hold, 1 do not (expected).");
+  results.published[3].expected = false;
+  EXPECT_EQ(ledger_summary(results), "1 of 3 published numbers reproduced; 1 claims hold, 0 do not (expected), "
+                                     "1 do not (UNEXPECTED); 1 outcomes UNEXPECTED.");
+}
+
+TEST(Reports, VerdictsAsTheyAreShown) {
+  using reports_sample::claim, reports_sample::value;
+  EXPECT_EQ(verdict_text(value("", 1, 1, Verdict::reproduced, true)), "reproduced");
+  EXPECT_EQ(verdict_text(value("", 1, 1, Verdict::reproduced, false)), "reproduced (UNEXPECTED)");
+  EXPECT_EQ(verdict_text(value("", 1, 2, Verdict::differs, true)), "differs (expected)");
+  EXPECT_EQ(verdict_text(value("", 1, 2, Verdict::differs, false)), "differs (UNEXPECTED)");
+  EXPECT_EQ(verdict_text(value("", 1, 2, Verdict::not_reproducible, true)), "not reproducible (expected)");
+  EXPECT_EQ(verdict_text(claim("", Verdict::holds, true)), "holds");
+  EXPECT_EQ(verdict_text(claim("", Verdict::holds, false)), "holds (UNEXPECTED)");
+  EXPECT_EQ(verdict_text(claim("", Verdict::does_not_hold, true)), "does not hold (expected)");
+  EXPECT_EQ(verdict_text(claim("", Verdict::does_not_hold, false)), "does not hold (UNEXPECTED)");
+}
+
+TEST(Reports, EmptyResultsStillMakeAReport) {
+  EXPECT_TRUE(contains(text_report(Results()), "No cells were computed."));
+  EXPECT_FALSE(markdown_report(Results()).empty());
+  EXPECT_EQ(lines_of(csv_report(Results())).size(), 1u);
+}
+
+TEST(ObservedRate, IsTheSlopeBetweenLevels) {
+  Results results;
+  // Errors h^2.5 on grids with 15 and 30 intervals: the rate is 2.5 up to rounding.
+  results.cells.push_back(reports_sample::cell("convergence", "weak1", "16x4", std::pow(1.0 / 15, 2.5)));
+  results.cells.push_back(reports_sample::cell("convergence", "strong", "16x4", 0.5));
+  results.cells.push_back(reports_sample::cell("convergence", "weak1", "31x7", std::pow(1.0 / 30, 2.5)));
+  const std::vector<Group> groups = group_cells(results);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0].cells[1]->level, "31x7"); // labels stand together
+  EXPECT_NEAR(observed_rate(groups[0], results.cells[2], "displacement_l2_relative").value(), 2.5, 1e-12);
+  EXPECT_EQ(observed_rate(groups[0], results.cells[0], "displacement_l2_relative"), std::nullopt);
+  EXPECT_EQ(observed_rate(groups[0], results.cells[1], "displacement_l2_relative"), std::nullopt);
+}
+
+TEST(ObservedRate, IsNotGivenWhereItMeansNothing) {
+  Results results;
+  results.cells.push_back(reports_sample::cell("convergence", "weak1", "16x4", 1e-13));
+  results.cells.push_back(reports_sample::cell("convergence", "weak1", "31x7", 1e-14));
+  results.cells.push_back(reports_sample::cell("convergence", "strong", "16x4", 0.1));
+  results.cells.push_back(reports_sample::cell("convergence", "strong", "31x7", 0.01));
+  results.cells[2].status = Status::failed;
+  const std::vector<Group> groups = group_cells(results);
+  EXPECT_EQ(observed_rate(groups[0], results.cells[1], "displacement_l2_relative"), std::nullopt);
+  EXPECT_EQ(observed_rate(groups[0], results.cells[3], "displacement_l2_relative"), std::nullopt);
+}
