@@ -2,14 +2,11 @@
 
 #include <chrono>
 
-namespace fem_reference
-{
+namespace fem_reference {
 /// Wall-clock seconds since construction or the last `lap`.
-class Stopwatch
-{
+class Stopwatch {
 public:
-  double lap()
-  {
+  double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     start_ = now;

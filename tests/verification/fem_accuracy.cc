@@ -4,22 +4,18 @@
 
 #include <numbers>
 
-namespace
-{
+namespace {
 using namespace fem_test;
 
-class FemDegree : public testing::TestWithParam<int>
-{};
+class FemDegree : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Q, FemDegree, testing::Values(1, 2, 3, 4), testing::PrintToStringParamName());
 
 // Machine precision with a factor 5000 for the condition number (up to 1e6), most of which the
 // correction step takes away.
 constexpr double rounding = 1e-12;
 
-TEST_P(FemDegree, linear_patch_on_distorted_cells)
-{
-  for (const auto model : {PlaneModel::plane_stress, PlaneModel::plane_strain})
-  {
+TEST_P(FemDegree, linear_patch_on_distorted_cells) {
+  for (const auto model : {PlaneModel::plane_stress, PlaneModel::plane_strain}) {
     const Material material(210e9, .3, model);
     const auto exact = linear_field(material);
     const auto problem = left_fixed(jittered({0, 0}, {1, .7}, 6, 5), material, exact);
@@ -29,12 +25,15 @@ TEST_P(FemDegree, linear_patch_on_distorted_cells)
   }
 }
 
-TEST_P(FemDegree, rigid_motion_has_no_stress)
-{
+TEST_P(FemDegree, rigid_motion_has_no_stress) {
   const Material material(1, .3, PlaneModel::plane_strain);
   const double angle = 1e-3;
-  const Exact motion = {[angle](Point x) -> Vector { return {.1 - angle * x[1], -.2 + angle * x[0]}; },
-                        [](Point) { return Stress{0, 0, 0}; }};
+  const Exact motion = {[angle](Point x) -> Vector {
+                          return {.1 - angle * x[1], -.2 + angle * x[0]};
+                        },
+                        [](Point) {
+                          return Stress{0, 0, 0};
+                        }};
   const auto problem = left_fixed(jittered({0, 0}, {1, 1}, 5, 5), material, motion);
   const auto solution = solve(problem, {GetParam(), LinearSolver::cholesky});
   std::vector<Point> points;
@@ -48,15 +47,13 @@ TEST_P(FemDegree, rigid_motion_has_no_stress)
       EXPECT_LT(std::abs(component), 1e-12);
 }
 
-TEST(FemCantilever, cubic_elements_and_above_are_exact)
-{
+TEST(FemCantilever, cubic_elements_and_above_are_exact) {
   const Cantilever plate;
   const auto exact = plate.exact();
   for (const int degree : {3, 4})
-    for (const double amount : {0., .25})
-    {
+    for (const double amount : {0., .25}) {
       const auto problem =
-        left_fixed(jittered({0, 0}, {plate.length, plate.width}, 11, 4, amount), plate.material, exact);
+          left_fixed(jittered({0, 0}, {plate.length, plate.width}, 11, 4, amount), plate.material, exact);
       const auto error = errors(solve(problem, {degree, LinearSolver::cholesky}), exact, {0, 0}, {1, .2});
       EXPECT_LT(error.displacement, rounding) << degree << ' ' << amount;
       EXPECT_LT(error.stress, 100 * rounding) << degree << ' ' << amount;
@@ -64,12 +61,10 @@ TEST(FemCantilever, cubic_elements_and_above_are_exact)
 }
 
 /// Orders between successive refinements of a grid of 2^k cells across.
-std::vector<double> orders(const std::function<double(unsigned cells)> &error, unsigned coarsest, int levels)
-{
+std::vector<double> orders(const std::function<double(unsigned cells)> &error, unsigned coarsest, int levels) {
   std::vector<double> result;
   double previous = error(coarsest);
-  for (int level = 1; level < levels; ++level)
-  {
+  for (int level = 1; level < levels; ++level) {
     const double current = error(coarsest << level);
     result.push_back(std::log2(previous / current));
     previous = current;
@@ -77,15 +72,13 @@ std::vector<double> orders(const std::function<double(unsigned cells)> &error, u
   return result;
 }
 
-TEST(FemCantilever, orders_of_q1_and_q2)
-{
+TEST(FemCantilever, orders_of_q1_and_q2) {
   const Cantilever plate;
   const auto exact = plate.exact();
-  for (const int degree : {1, 2})
-  {
+  for (const int degree : {1, 2}) {
     const auto error = [&](unsigned cells) {
       const auto problem =
-        left_fixed(mesh::rectangle({0, 0}, {1, .2}, 5 * cells + 1, cells + 1), plate.material, exact);
+          left_fixed(mesh::rectangle({0, 0}, {1, .2}, 5 * cells + 1, cells + 1), plate.material, exact);
       return errors(solve(problem, {degree, LinearSolver::cholesky}), exact, {0, 0}, {1, .2}, 203).displacement;
     };
     for (const double order : orders(error, 4, 4))
@@ -94,8 +87,7 @@ TEST(FemCantilever, orders_of_q1_and_q2)
 }
 
 /// Not a polynomial, with body force b = -div sigma, in either model.
-Exact manufactured(const Material &material)
-{
+Exact manufactured(const Material &material) {
   constexpr double k = std::numbers::pi;
   const double lambda = material.lambda();
   const double mu = material.mu();
@@ -104,34 +96,27 @@ Exact manufactured(const Material &material)
             return {std::sin(k * x[0]) * std::cos(k * x[1]), x[0] * std::exp(x[1])};
           },
           [material](Point x) {
-            return hooke(material,
-                         k * std::cos(k * x[0]) * std::cos(k * x[1]),
-                         x[0] * std::exp(x[1]),
+            return hooke(material, k * std::cos(k * x[0]) * std::cos(k * x[1]), x[0] * std::exp(x[1]),
                          .5 * (-k * std::sin(k * x[0]) * std::sin(k * x[1]) + std::exp(x[1])));
           },
           [lambda, mu](Point x) -> Vector {
             // b = -(lambda + mu) grad div u - mu laplace u
             const double divergence_1 = -k * k * std::sin(k * x[0]) * std::cos(k * x[1]) + std::exp(x[1]);
-            const double divergence_2 =
-              -k * k * std::cos(k * x[0]) * std::sin(k * x[1]) + x[0] * std::exp(x[1]);
+            const double divergence_2 = -k * k * std::cos(k * x[0]) * std::sin(k * x[1]) + x[0] * std::exp(x[1]);
             const double laplace_1 = -2 * k * k * std::sin(k * x[0]) * std::cos(k * x[1]);
             const double laplace_2 = x[0] * std::exp(x[1]);
-            return {-(lambda + mu) * divergence_1 - mu * laplace_1,
-                    -(lambda + mu) * divergence_2 - mu * laplace_2};
+            return {-(lambda + mu) * divergence_1 - mu * laplace_1, -(lambda + mu) * divergence_2 - mu * laplace_2};
           }};
 }
 
-TEST_P(FemDegree, orders_on_a_manufactured_solution)
-{
-  for (const auto model : {PlaneModel::plane_stress, PlaneModel::plane_strain})
-  {
+TEST_P(FemDegree, orders_on_a_manufactured_solution) {
+  for (const auto model : {PlaneModel::plane_stress, PlaneModel::plane_strain}) {
     const Material material(2.5, .3, model);
     const auto exact = manufactured(material);
     std::vector<double> stress_errors;
     const auto error = [&](unsigned cells) {
       const auto problem = left_fixed(mesh::rectangle({0, 0}, {1, 1}, cells + 1, cells + 1), material, exact);
-      const auto measured =
-        errors(solve(problem, {GetParam(), LinearSolver::cholesky}), exact, {0, 0}, {1, 1}, 211);
+      const auto measured = errors(solve(problem, {GetParam(), LinearSolver::cholesky}), exact, {0, 0}, {1, 1}, 211);
       stress_errors.push_back(measured.stress);
       return measured.displacement;
     };
@@ -142,10 +127,8 @@ TEST_P(FemDegree, orders_on_a_manufactured_solution)
 }
 
 // Plane stress does not lock and has a finite lambda even at nu = 1/2.
-TEST(FemMaterial, incompressible_plane_stress)
-{
-  for (const double nu : {.499999, .5})
-  {
+TEST(FemMaterial, incompressible_plane_stress) {
+  for (const double nu : {.499999, .5}) {
     Cantilever plate;
     plate.material = Material(226.9e9, nu, PlaneModel::plane_stress);
     EXPECT_NEAR(plate.material.lambda(), 226.9e9 * nu / (1 - nu * nu), 1e-15 * 226.9e9);
@@ -155,8 +138,7 @@ TEST(FemMaterial, incompressible_plane_stress)
   }
 }
 
-TEST(FemMaterial, nearly_incompressible_plane_strain_patch)
-{
+TEST(FemMaterial, nearly_incompressible_plane_strain_patch) {
   const Material material(210e9, .499999, PlaneModel::plane_strain);
   const auto exact = linear_field(material);
   const auto problem = left_fixed(jittered({0, 0}, {1, .7}, 6, 5), material, exact);
@@ -164,12 +146,10 @@ TEST(FemMaterial, nearly_incompressible_plane_strain_patch)
   EXPECT_LT(errors(solve(problem, {2, LinearSolver::cholesky}), exact, {0, 0}, {1, .7}).displacement, 1e-8);
 }
 
-TEST(FemSolvers, cholesky_and_umfpack_agree)
-{
+TEST(FemSolvers, cholesky_and_umfpack_agree) {
   const Cantilever plate;
   const auto exact = plate.exact();
-  for (const int degree : {1, 2, 3, 4})
-  {
+  for (const int degree : {1, 2, 3, 4}) {
     const auto problem = left_fixed(jittered({0, 0}, {1, .2}, 21, 6), plate.material, exact);
     const auto a = solve(problem, {degree, LinearSolver::cholesky});
     const auto b = solve(problem, {degree, LinearSolver::umfpack});
@@ -187,8 +167,7 @@ TEST(FemSolvers, cholesky_and_umfpack_agree)
                             }};
     const auto difference = errors(b, as_exact, {0, 0}, {1, .2}, 31);
     EXPECT_LT(difference.displacement, rounding) << degree;
-    for (const auto *solution : {&a, &b})
-    {
+    for (const auto *solution : {&a, &b}) {
       EXPECT_LT(solution->backward_error(), 1e-14); // a backward stable direct solver
       EXPECT_LT(solution->relative_residual(), 1e-10);
     }
@@ -197,8 +176,7 @@ TEST(FemSolvers, cholesky_and_umfpack_agree)
 
 // The residual by cells knows the strain to rounding, so one correction gains at least a digit on the
 // error of the factorisation, which here is the condition number times machine precision.
-TEST(FemSolvers, one_correction_gains_digits)
-{
+TEST(FemSolvers, one_correction_gains_digits) {
   const Cantilever plate;
   const auto exact = plate.exact();
   const auto problem = left_fixed(jittered({0, 0}, {1, .2}, 41, 9), plate.material, exact);
@@ -210,8 +188,7 @@ TEST(FemSolvers, one_correction_gains_digits)
   EXPECT_LT(corrected, .1 * error(0));
 }
 
-TEST(FemSolvers, repeat_bit_for_bit)
-{
+TEST(FemSolvers, repeat_bit_for_bit) {
   const Cantilever plate;
   const auto exact = plate.exact();
   const auto problem = left_fixed(jittered({0, 0}, {1, .2}, 21, 6), plate.material, exact);

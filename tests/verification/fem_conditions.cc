@@ -2,24 +2,20 @@
 
 #include "fem_support.h"
 
-namespace
-{
+namespace {
 using namespace fem_test;
 
 const Material steel(210e9, .3, PlaneModel::plane_strain);
 
 // Every combination of kinds on three edges must return the same linear field.
-TEST(FemConditions, mixed_by_component)
-{
+TEST(FemConditions, mixed_by_component) {
   const auto exact = linear_field(steel);
-  for (int combination = 0; combination < 64; ++combination)
-  {
+  for (int combination = 0; combination < 64; ++combination) {
     PlaneProblem problem{jittered({0, 0}, {1, .7}, 5, 4), steel, {{0, condition(exact, fixed, fixed)}}};
-    for (int id = 1; id < 4; ++id)
-    {
+    for (int id = 1; id < 4; ++id) {
       const int bits = combination >> (2 * (id - 1));
-      problem.boundary.emplace(
-        id, condition(exact, (bits & 1) != 0 ? fixed : loaded, (bits & 2) != 0 ? fixed : loaded));
+      problem.boundary.emplace(id,
+                               condition(exact, (bits & 1) != 0 ? fixed : loaded, (bits & 2) != 0 ? fixed : loaded));
     }
     const auto solution = solve(problem, {2, LinearSolver::cholesky});
     EXPECT_LT(errors(solution, exact, {0, 0}, {1, .7}, 21).displacement, 1e-12) << combination;
@@ -28,14 +24,17 @@ TEST(FemConditions, mixed_by_component)
 }
 
 // Rollers: u1 = 0 on the left, u2 = 0 at the bottom, a pull on the right.
-TEST(FemConditions, rollers_and_default_conditions)
-{
+TEST(FemConditions, rollers_and_default_conditions) {
   const double pull = 1e6;
   const double nu = .3;
   const Material material(210e9, nu, PlaneModel::plane_stress);
   const auto zero = batch([](Point) { return Vector{0, 0}; });
-  const Exact exact = {[=](Point x) -> Vector { return {pull / 210e9 * x[0], -nu * pull / 210e9 * x[1]}; },
-                       [=](Point) { return Stress{pull, 0, 0}; }};
+  const Exact exact = {[=](Point x) -> Vector {
+                         return {pull / 210e9 * x[0], -nu * pull / 210e9 * x[1]};
+                       },
+                       [=](Point) {
+                         return Stress{pull, 0, 0};
+                       }};
   const PlaneProblem problem{mesh::rectangle({0, 0}, {2, 1}, 5, 4),
                              material,
                              {{0, {{fixed, loaded}, zero, {}}},
@@ -47,11 +46,10 @@ TEST(FemConditions, rollers_and_default_conditions)
   EXPECT_LT(error.stress, 1e-12);
 }
 
-TEST(FemConditions, nothing_prescribed_but_zero_gives_exactly_zero)
-{
+TEST(FemConditions, nothing_prescribed_but_zero_gives_exactly_zero) {
   const auto zero = batch([](Point) { return Vector{0, 0}; });
   const PlaneProblem problem{
-    mesh::rectangle({0, 0}, {2, 1}, 5, 4), steel, {{0, {{fixed, fixed}, zero, {}}}, {1, {}}, {2, {}}, {3, {}}}};
+      mesh::rectangle({0, 0}, {2, 1}, 5, 4), steel, {{0, {{fixed, fixed}, zero, {}}}, {1, {}}, {2, {}}, {3, {}}}};
   const auto solution = solve(problem);
   const Point x = {1.9, .4};
   Vector u = {1, 1};
@@ -61,8 +59,7 @@ TEST(FemConditions, nothing_prescribed_but_zero_gives_exactly_zero)
   EXPECT_EQ(solution.backward_error(), 0);
 }
 
-TEST(FemConditions, lowest_id_wins_at_a_contradicted_corner)
-{
+TEST(FemConditions, lowest_id_wins_at_a_contradicted_corner) {
   PlaneProblem problem{mesh::rectangle({0, 0}, {1, 1}, 4, 4), steel, {}};
   for (int id = 0; id < 4; ++id)
     problem.boundary.emplace(id, BoundaryCondition{});
@@ -78,8 +75,7 @@ TEST(FemConditions, lowest_id_wins_at_a_contradicted_corner)
 }
 
 // Traction normals on every edge: hydrostatic pressure balances itself.
-TEST(FemConditions, pressure_along_outward_normals)
-{
+TEST(FemConditions, pressure_along_outward_normals) {
   const double pressure = 3e6;
   const auto press = [=](std::span<const Point>, std::span<const Vector> normals, std::span<Vector> values) {
     for (std::size_t k = 0; k < normals.size(); ++k)
@@ -90,8 +86,12 @@ TEST(FemConditions, pressure_along_outward_normals)
   for (auto &x : mesh.vertices)
     x = {x[0] + .3 * x[1], x[1] - .2 * x[0] + .1 * x[0] * x[1]};
   const double strain = -pressure / (2 * (steel.lambda() + steel.mu()));
-  const Exact exact = {[=](Point x) -> Vector { return {strain * x[0], strain * x[1]}; },
-                       [=](Point) { return Stress{-pressure, -pressure, 0}; }};
+  const Exact exact = {[=](Point x) -> Vector {
+                         return {strain * x[0], strain * x[1]};
+                       },
+                       [=](Point) {
+                         return Stress{-pressure, -pressure, 0};
+                       }};
   PlaneProblem problem{mesh, steel, {{0, condition(exact, fixed, fixed)}}};
   for (int id = 1; id < 4; ++id)
     problem.boundary.emplace(id, BoundaryCondition{{loaded, loaded}, {}, press});
@@ -100,8 +100,7 @@ TEST(FemConditions, pressure_along_outward_normals)
 }
 
 // Cells may start at any of their vertices: edges of neighbours then run in opposite directions.
-TEST(FemConditions, cells_rotated_at_random)
-{
+TEST(FemConditions, cells_rotated_at_random) {
   const Cantilever plate;
   const auto exact = plate.exact();
   auto problem = left_fixed(jittered({0, 0}, {1, .2}, 11, 4), plate.material, exact);
@@ -113,28 +112,25 @@ TEST(FemConditions, cells_rotated_at_random)
     EXPECT_LT(errors(solve(problem, {degree, LinearSolver::cholesky}), exact, {0, 0}, {1, .2}).displacement, 1e-12);
 }
 
-TEST(FemOffset, a_million_metres_from_the_origin)
-{
+TEST(FemOffset, a_million_metres_from_the_origin) {
   const Cantilever plate;
   const Point offset = {1e6, -1e6};
   const auto exact = plate.exact(offset);
-  const auto problem = left_fixed(
-    jittered(offset, {offset[0] + 1, offset[1] + .2}, 11, 4), plate.material, exact);
+  const auto problem = left_fixed(jittered(offset, {offset[0] + 1, offset[1] + .2}, 11, 4), plate.material, exact);
   const auto error =
-    errors(solve(problem, {3, LinearSolver::cholesky}), exact, offset, {offset[0] + 1, offset[1] + .2});
+      errors(solve(problem, {3, LinearSolver::cholesky}), exact, offset, {offset[0] + 1, offset[1] + .2});
   // The coordinates themselves are rounded to 1e-10 m, 2e-9 of a cell.
   EXPECT_LT(error.displacement, 1e-7);
   EXPECT_LT(error.stress, 1e-6);
 }
 
-TEST(FemEvaluation, points_outside_take_the_nearest_cell_and_are_counted)
-{
+TEST(FemEvaluation, points_outside_take_the_nearest_cell_and_are_counted) {
   const Cantilever plate;
   const auto exact = plate.exact();
-  const auto solution = solve(left_fixed(jittered({0, 0}, {1, .2}, 11, 4), plate.material, exact),
-                              {3, LinearSolver::cholesky});
-  const std::vector<Point> points = {
-    {.5, .1}, {-.01, .1}, {1.01, .19}, {.37, -.005}, {.37, .203}, {1, .2}, {0, 0}, {1 + 1e-13, .1}};
+  const auto solution =
+      solve(left_fixed(jittered({0, 0}, {1, .2}, 11, 4), plate.material, exact), {3, LinearSolver::cholesky});
+  const std::vector<Point> points = {{.5, .1},    {-.01, .1}, {1.01, .19}, {.37, -.005},
+                                     {.37, .203}, {1, .2},    {0, 0},      {1 + 1e-13, .1}};
   std::vector<Vector> u(points.size());
   solution.displacement(points, u);
   EXPECT_EQ(solution.points_outside(), 4U);
@@ -156,8 +152,7 @@ TEST(FemEvaluation, points_outside_take_the_nearest_cell_and_are_counted)
 }
 
 // Stress jumps between Q1 cells; on the border the cell of lowest index decides.
-TEST(FemEvaluation, border_belongs_to_the_cell_of_lowest_index)
-{
+TEST(FemEvaluation, border_belongs_to_the_cell_of_lowest_index) {
   const Cantilever plate;
   const auto solution = solve(left_fixed(mesh::rectangle({0, 0}, {1, .2}, 11, 3), plate.material, plate.exact()),
                               {1, LinearSolver::cholesky});
@@ -171,11 +166,10 @@ TEST(FemEvaluation, border_belongs_to_the_cell_of_lowest_index)
   EXPECT_LT(std::abs(stress[1][0] - stress[2][0]), 1e-3 * jump);
 }
 
-TEST(FemEvaluation, every_point_of_a_distorted_mesh_is_found)
-{
+TEST(FemEvaluation, every_point_of_a_distorted_mesh_is_found) {
   const auto exact = linear_field(steel);
-  const auto solution = solve(left_fixed(jittered({0, 0}, {1, 1}, 30, 30, .3), steel, exact),
-                              {1, LinearSolver::cholesky});
+  const auto solution =
+      solve(left_fixed(jittered({0, 0}, {1, 1}, 30, 30, .3), steel, exact), {1, LinearSolver::cholesky});
   std::vector<Point> points;
   for (int j = 0; j <= 200; ++j)
     for (int i = 0; i <= 200; ++i)

@@ -6,12 +6,10 @@
 
 #include <vector>
 
-namespace fem_reference::elasticity
-{
+namespace fem_reference::elasticity {
 /// Prescribed displacements: for unknown = 2 node + component whether it is prescribed, and its value
 /// in m (zero elsewhere).
-struct EssentialData
-{
+struct EssentialData {
   std::vector<char> prescribed;
   std::vector<double> values;
   std::size_t contradicted = 0;
@@ -30,7 +28,6 @@ std::vector<double> load_vector(const PlaneProblem &problem, const Discretisatio
 
 /// Move the prescribed columns to the right-hand side and keep of prescribed rows and columns the
 /// diagonal alone: the matrix stays symmetric positive definite and of the same size.
-void eliminate(const EssentialData &essential,
-               linear_algebra::BlockMatrix &matrix,
+void eliminate(const EssentialData &essential, linear_algebra::BlockMatrix &matrix,
                std::vector<double> &right_hand_side);
 } // namespace fem_reference::elasticity

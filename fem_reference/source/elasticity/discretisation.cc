@@ -12,18 +12,14 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
-namespace fem_reference::elasticity
-{
-namespace
-{
+namespace fem_reference::elasticity {
+namespace {
 /// Centre of the bounding box, and its longer side.
-void set_origin(const mesh::QuadrilateralMesh &mesh, Discretisation &discretisation)
-{
+void set_origin(const mesh::QuadrilateralMesh &mesh, Discretisation &discretisation) {
   mesh::Point lower = mesh.vertices.front();
   mesh::Point upper = lower;
   for (const auto &vertex : mesh.vertices)
-    for (std::size_t d = 0; d < 2; ++d)
-    {
+    for (std::size_t d = 0; d < 2; ++d) {
       lower[d] = std::min(lower[d], vertex[d]);
       upper[d] = std::max(upper[d], vertex[d]);
     }
@@ -32,17 +28,14 @@ void set_origin(const mesh::QuadrilateralMesh &mesh, Discretisation &discretisat
   discretisation.extent = std::max(upper[0] - lower[0], upper[1] - lower[1]);
 }
 
-void create_triangulation(const mesh::QuadrilateralMesh &mesh,
-                          mesh::Point origin,
-                          dealii::Triangulation<2> &triangulation)
-{
+void create_triangulation(const mesh::QuadrilateralMesh &mesh, mesh::Point origin,
+                          dealii::Triangulation<2> &triangulation) {
   std::vector<dealii::Point<2>> vertices;
   vertices.reserve(mesh.vertices.size());
   for (const auto &vertex : mesh.vertices)
     vertices.emplace_back(vertex[0] - origin[0], vertex[1] - origin[1]);
   std::vector<dealii::CellData<2>> cells(mesh.cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto &v = mesh.cells[c];
     cells[c].vertices = {v[0], v[1], v[3], v[2]}; // deal.II counts lexicographically
   }
@@ -53,11 +46,9 @@ void create_triangulation(const mesh::QuadrilateralMesh &mesh,
 
 /// The side of the (perhaps rotated) deal.II cell between two vertices of the mesh.
 template <typename Cell>
-unsigned side_between(const Cell &cell, std::array<unsigned, 2> vertices)
-{
+unsigned side_between(const Cell &cell, std::array<unsigned, 2> vertices) {
   static constexpr std::array<std::array<unsigned, 2>, 4> ends = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-  for (unsigned side = 0; side < 4; ++side)
-  {
+  for (unsigned side = 0; side < 4; ++side) {
     const unsigned a = cell->vertex_index(ends[side][0]);
     const unsigned b = cell->vertex_index(ends[side][1]);
     if ((a == vertices[0] && b == vertices[1]) || (a == vertices[1] && b == vertices[0]))
@@ -66,8 +57,7 @@ unsigned side_between(const Cell &cell, std::array<unsigned, 2> vertices)
   throw std::logic_error("fem_reference: a checked boundary edge is not a side of its cell");
 }
 
-void number_nodes(const dealii::Triangulation<2> &triangulation, Discretisation &discretisation)
-{
+void number_nodes(const dealii::Triangulation<2> &triangulation, Discretisation &discretisation) {
   const auto degree = static_cast<unsigned>(discretisation.degree);
   const dealii::FE_Q<2> fe(degree);
   // One scalar handler serves both components: unknown = 2 node + component.
@@ -82,13 +72,10 @@ void number_nodes(const dealii::Triangulation<2> &triangulation, Discretisation 
   std::vector<dealii::Point<2>> unit_points;
   for (const unsigned k : hierarchic)
     unit_points.push_back(fe.unit_support_point(k));
-  for (const auto &cell : handler.active_cell_iterators())
-  {
+  for (const auto &cell : handler.active_cell_iterators()) {
     cell->get_dof_indices(indices);
-    unsigned *nodes =
-      discretisation.cell_nodes.data() + std::size_t{cell->active_cell_index()} * indices.size();
-    for (std::size_t a = 0; a < indices.size(); ++a)
-    {
+    unsigned *nodes = discretisation.cell_nodes.data() + std::size_t{cell->active_cell_index()} * indices.size();
+    for (std::size_t a = 0; a < indices.size(); ++a) {
       nodes[a] = static_cast<unsigned>(indices[hierarchic[a]]);
       const auto x = unit_points[a][0];
       const auto y = unit_points[a][1];
@@ -101,11 +88,8 @@ void number_nodes(const dealii::Triangulation<2> &triangulation, Discretisation 
 }
 } // namespace
 
-Discretisation discretise(const mesh::QuadrilateralMesh &mesh,
-                          int degree,
-                          double &seconds_mesh,
-                          double &seconds_numbering)
-{
+Discretisation discretise(const mesh::QuadrilateralMesh &mesh, int degree, double &seconds_mesh,
+                          double &seconds_numbering) {
   Stopwatch stopwatch;
   const auto sides = mesh::check(mesh);
   Discretisation discretisation;
@@ -117,7 +101,7 @@ Discretisation discretise(const mesh::QuadrilateralMesh &mesh,
   std::vector<dealii::Triangulation<2>::cell_iterator> cells(triangulation.begin(), triangulation.end());
   for (std::size_t e = 0; e < sides.size(); ++e)
     discretisation.edges.push_back(
-      {sides[e].cell, side_between(cells[sides[e].cell], mesh.boundary[e].vertices), mesh.boundary[e].id});
+        {sides[e].cell, side_between(cells[sides[e].cell], mesh.boundary[e].vertices), mesh.boundary[e].id});
   seconds_mesh = stopwatch.lap();
   number_nodes(triangulation, discretisation);
   seconds_numbering = stopwatch.lap();

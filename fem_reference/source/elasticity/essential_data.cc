@@ -8,13 +8,10 @@
 
 #include <fmt/format.h>
 
-namespace fem_reference::elasticity
-{
-namespace
-{
+namespace fem_reference::elasticity {
+namespace {
 /// Nodes on the edges of one id, each once, sorted.
-std::vector<unsigned> nodes_of_id(const Discretisation &discretisation, int id)
-{
+std::vector<unsigned> nodes_of_id(const Discretisation &discretisation, int id) {
   std::vector<unsigned> nodes;
   for (const auto &edge : discretisation.edges)
     if (edge.id == id)
@@ -25,11 +22,7 @@ std::vector<unsigned> nodes_of_id(const Discretisation &discretisation, int id)
   return nodes;
 }
 
-void prescribe(int id,
-               const BoundaryCondition &condition,
-               const Discretisation &discretisation,
-               EssentialData &data)
-{
+void prescribe(int id, const BoundaryCondition &condition, const Discretisation &discretisation, EssentialData &data) {
   const auto nodes = nodes_of_id(discretisation, id);
   std::vector<Point> points;
   points.reserve(nodes.size());
@@ -42,32 +35,24 @@ void prescribe(int id,
   for (const auto &value : values)
     largest = std::max({largest, std::abs(value[0]), std::abs(value[1])});
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (unsigned d = 0; d < 2; ++d)
-    {
+    for (unsigned d = 0; d < 2; ++d) {
       if (condition.kind[d] != ConditionKind::displacement)
         continue;
       const double value = values[k][d];
       if (!std::isfinite(value))
-        throw InvalidInput(fmt::format("boundary id {}: the prescribed displacement u{} at ({}, {}) is {}",
-                                       id,
-                                       d + 1,
-                                       points[k][0],
-                                       points[k][1],
-                                       value));
+        throw InvalidInput(fmt::format("boundary id {}: the prescribed displacement u{} at ({}, {}) is {}", id, d + 1,
+                                       points[k][0], points[k][1], value));
       const std::size_t unknown = 2 * std::size_t{nodes[k]} + d;
-      if (data.prescribed[unknown] == 0)
-      {
+      if (data.prescribed[unknown] == 0) {
         data.prescribed[unknown] = 1;
         data.values[unknown] = value;
-      }
-      else if (std::abs(value - data.values[unknown]) > 1e-10 * largest) // more than rounding
+      } else if (std::abs(value - data.values[unknown]) > 1e-10 * largest) // more than rounding
         ++data.contradicted;
     }
 }
 
 /// The lowest node of the connected part that each node belongs to (union-find with path halving).
-std::vector<unsigned> connected_parts(const Discretisation &discretisation)
-{
+std::vector<unsigned> connected_parts(const Discretisation &discretisation) {
   std::vector<unsigned> parent(discretisation.n_nodes());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&parent](unsigned i) {
@@ -75,12 +60,10 @@ std::vector<unsigned> connected_parts(const Discretisation &discretisation)
       i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
-  {
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
     const auto nodes = discretisation.nodes_of(c);
     unsigned first = root(nodes[0]);
-    for (const unsigned node : nodes)
-    {
+    for (const unsigned node : nodes) {
       const unsigned other = root(node);
       parent[std::max(first, other)] = std::min(first, other);
       first = std::min(first, other);
@@ -93,27 +76,22 @@ std::vector<unsigned> connected_parts(const Discretisation &discretisation)
 
 /// What the prescribed components of one connected part fix. A rotation stays free as long as all
 /// prescribed u1 have one x2 and all prescribed u2 have one x1: their intersection is a centre.
-struct Supports
-{
+struct Supports {
   std::array<std::size_t, 2> count{};
   std::array<double, 2> lowest = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  std::array<double, 2> highest = {std::numeric_limits<double>::lowest(),
-                                   std::numeric_limits<double>::lowest()};
+  std::array<double, 2> highest = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
 
-  void add(std::size_t component, Point position)
-  {
+  void add(std::size_t component, Point position) {
     ++count[component];
     const double arm = position[1 - component];
     lowest[component] = std::min(lowest[component], arm);
     highest[component] = std::max(highest[component], arm);
   }
 
-  std::vector<std::string> free_motions(double extent) const
-  {
+  std::vector<std::string> free_motions(double extent) const {
     std::vector<std::string> motions;
     bool rotation_fixed = false;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
+    for (std::size_t d = 0; d < 2; ++d) {
       if (count[d] == 0)
         motions.push_back(fmt::format("translation along x{}", d + 1));
       else if (highest[d] - lowest[d] > 1e-8 * extent)
@@ -125,8 +103,7 @@ struct Supports
   }
 };
 
-void check_rigid_motions(const EssentialData &data, const Discretisation &discretisation)
-{
+void check_rigid_motions(const EssentialData &data, const Discretisation &discretisation) {
   const auto part = connected_parts(discretisation);
   std::map<unsigned, Supports> supports;
   for (unsigned node = 0; node < part.size(); ++node)
@@ -136,27 +113,23 @@ void check_rigid_motions(const EssentialData &data, const Discretisation &discre
     for (std::size_t d = 0; d < 2; ++d)
       if (data.prescribed[2 * std::size_t{node} + d] != 0)
         supports[part[node]].add(d, discretisation.positions[node]);
-  for (const auto &[node, support] : supports)
-  {
+  for (const auto &[node, support] : supports) {
     const auto motions = support.free_motions(discretisation.extent);
     if (motions.empty())
       continue;
     const auto position = discretisation.original_position(node);
     throw InvalidInput(fmt::format(
-      "the essential conditions leave {} rigid motion{} free ({}){}: the stiffness is singular; "
-      "prescribe more displacement components",
-      motions.size(),
-      motions.size() == 1 ? "" : "s",
-      fmt::join(motions, ", "),
-      supports.size() == 1
-        ? std::string()
-        : fmt::format(" in the part of the mesh that holds the point ({}, {})", position[0], position[1])));
+        "the essential conditions leave {} rigid motion{} free ({}){}: the stiffness is singular; "
+        "prescribe more displacement components",
+        motions.size(), motions.size() == 1 ? "" : "s", fmt::join(motions, ", "),
+        supports.size() == 1
+            ? std::string()
+            : fmt::format(" in the part of the mesh that holds the point ({}, {})", position[0], position[1])));
   }
 }
 } // namespace
 
-void check_conditions(const PlaneProblem &problem)
-{
+void check_conditions(const PlaneProblem &problem) {
   std::map<int, std::size_t> edge_of_id;
   for (std::size_t e = 0; e < problem.mesh.boundary.size(); ++e)
     edge_of_id.emplace(problem.mesh.boundary[e].id, e);
@@ -165,22 +138,19 @@ void check_conditions(const PlaneProblem &problem)
     ids.push_back(id);
   for (const auto &[id, edge] : edge_of_id)
     if (problem.boundary.count(id) == 0)
-      throw InvalidInput(
-        fmt::format("boundary id {} of the mesh (boundary edge {}) has no condition", id, edge));
-  for (const auto &[id, condition] : problem.boundary)
-  {
+      throw InvalidInput(fmt::format("boundary id {} of the mesh (boundary edge {}) has no condition", id, edge));
+  for (const auto &[id, condition] : problem.boundary) {
     if (edge_of_id.count(id) == 0)
-      throw InvalidInput(fmt::format(
-        "there is a condition for boundary id {}, but the mesh has only: {}", id, fmt::join(ids, ", ")));
+      throw InvalidInput(
+          fmt::format("there is a condition for boundary id {}, but the mesh has only: {}", id, fmt::join(ids, ", ")));
     for (std::size_t d = 0; d < 2; ++d)
       if (condition.kind[d] == ConditionKind::displacement && !condition.displacement)
-        throw InvalidInput(fmt::format(
-          "boundary id {} prescribes u{} but its `displacement` callback is empty", id, d + 1));
+        throw InvalidInput(
+            fmt::format("boundary id {} prescribes u{} but its `displacement` callback is empty", id, d + 1));
   }
 }
 
-EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation)
-{
+EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation) {
   EssentialData data;
   data.prescribed.assign(2 * discretisation.n_nodes(), 0);
   data.values.assign(2 * discretisation.n_nodes(), 0.);
@@ -191,19 +161,15 @@ EssentialData essential_data(const PlaneProblem &problem, const Discretisation &
   return data;
 }
 
-void eliminate(const EssentialData &essential,
-               linear_algebra::BlockMatrix &matrix,
-               std::vector<double> &right_hand_side)
-{
+void eliminate(const EssentialData &essential, linear_algebra::BlockMatrix &matrix,
+               std::vector<double> &right_hand_side) {
   const auto &prescribed = essential.prescribed;
   std::size_t entry = 0;
   for (int j = 0; j < matrix.n_nodes(); ++j)
-    for (int s = 0; s < 2; ++s)
-    {
+    for (int s = 0; s < 2; ++s) {
       const std::size_t column = 2 * static_cast<std::size_t>(j) + s;
       for (int k = matrix.block_start[j]; k < matrix.block_start[j + 1]; ++k)
-        for (int r = (k == matrix.block_start[j] ? s : 0); r < 2; ++r, ++entry)
-        {
+        for (int r = (k == matrix.block_start[j] ? s : 0); r < 2; ++r, ++entry) {
           const std::size_t row = 2 * static_cast<std::size_t>(matrix.block_rows[k]) + r;
           if (row == column || (prescribed[row] == 0 && prescribed[column] == 0))
             continue;
@@ -215,15 +181,13 @@ void eliminate(const EssentialData &essential,
         }
     }
   // The kept diagonal scales the equation u = value as its neighbours.
-  for (int j = 0; j < matrix.n_nodes(); ++j)
-  {
+  for (int j = 0; j < matrix.n_nodes(); ++j) {
     const std::size_t first = matrix.first_entry(static_cast<unsigned>(j));
     const int n_blocks = matrix.block_start[j + 1] - matrix.block_start[j];
     for (std::size_t s = 0; s < 2; ++s)
       if (const std::size_t unknown = 2 * static_cast<std::size_t>(j) + s; prescribed[unknown] != 0)
         right_hand_side[unknown] =
-          matrix.values[first + (s == 0 ? 0 : 2 * static_cast<std::size_t>(n_blocks))] *
-          essential.values[unknown];
+            matrix.values[first + (s == 0 ? 0 : 2 * static_cast<std::size_t>(n_blocks))] * essential.values[unknown];
   }
 }
 } // namespace fem_reference::elasticity

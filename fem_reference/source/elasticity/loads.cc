@@ -6,38 +6,29 @@
 
 #include <fmt/format.h>
 
-namespace fem_reference::elasticity
-{
-namespace
-{
+namespace fem_reference::elasticity {
+namespace {
 /// Cells handed to a callback at once: enough to amortise the call, few enough for the cache.
 constexpr std::size_t cells_per_batch = 128;
 
-void check_finite(const Vector &value, const Point &point, const std::string &what)
-{
+void check_finite(const Vector &value, const Point &point, const std::string &what) {
   if (!std::isfinite(value[0]) || !std::isfinite(value[1]))
-    throw InvalidInput(
-      fmt::format("{} at ({}, {}) is ({}, {})", what, point[0], point[1], value[0], value[1]));
+    throw InvalidInput(fmt::format("{} at ({}, {}) is ({}, {})", what, point[0], point[1], value[0], value[1]));
 }
 
 /// Position relative to the origin and JxW of one quadrature point of a cell.
-struct MappedPoint
-{
+struct MappedPoint {
   Point position;
   double jxw;
 };
 
-MappedPoint map_point(const ShapeTable &table,
-                      int q,
-                      std::span<const unsigned> nodes,
-                      const std::vector<Point> &positions)
-{
+MappedPoint map_point(const ShapeTable &table, int q, std::span<const unsigned> nodes,
+                      const std::vector<Point> &positions) {
   Point x{};
   Vector d1{};
   Vector d2{};
   for (int a = 0; a < table.n_nodes; ++a)
-    for (std::size_t d = 0; d < 2; ++d)
-    {
+    for (std::size_t d = 0; d < 2; ++d) {
       const int k = q * table.n_nodes + a;
       const double coordinate = positions[nodes[a]][d];
       x[d] += table.values[k] * coordinate;
@@ -47,32 +38,26 @@ MappedPoint map_point(const ShapeTable &table,
   return {x, table.weights[q] * (d1[0] * d2[1] - d1[1] * d2[0])};
 }
 
-void add_body_force(const VectorField &body_force,
-                    const Discretisation &discretisation,
-                    std::vector<double> &load)
-{
+void add_body_force(const VectorField &body_force, const Discretisation &discretisation, std::vector<double> &load) {
   const ShapeTable table(discretisation.degree, discretisation.degree + 2);
   const auto n_points = static_cast<std::size_t>(table.n_points);
   std::vector<Point> points;
   std::vector<double> jxw;
   std::vector<Vector> values;
-  for (std::size_t first = 0; first < discretisation.n_cells; first += cells_per_batch)
-  {
+  for (std::size_t first = 0; first < discretisation.n_cells; first += cells_per_batch) {
     const std::size_t last = std::min(first + cells_per_batch, discretisation.n_cells);
     points.clear();
     jxw.clear();
     for (std::size_t c = first; c < last; ++c)
-      for (int q = 0; q < table.n_points; ++q)
-      {
+      for (int q = 0; q < table.n_points; ++q) {
         const auto mapped = map_point(table, q, discretisation.nodes_of(c), discretisation.positions);
-        points.push_back({discretisation.origin[0] + mapped.position[0],
-                          discretisation.origin[1] + mapped.position[1]});
+        points.push_back(
+            {discretisation.origin[0] + mapped.position[0], discretisation.origin[1] + mapped.position[1]});
         jxw.push_back(mapped.jxw);
       }
     values.assign(points.size(), Vector{});
     body_force(points, values);
-    for (std::size_t k = 0; k < points.size(); ++k)
-    {
+    for (std::size_t k = 0; k < points.size(); ++k) {
       check_finite(values[k], points[k], "the body force");
       const auto nodes = discretisation.nodes_of(first + k / n_points);
       const double *shape = table.values.data() + (k % n_points) * nodes.size();
@@ -84,11 +69,8 @@ void add_body_force(const VectorField &body_force,
 }
 
 /// The traction of one boundary id, in one batch.
-void add_traction(int id,
-                  const BoundaryCondition &condition,
-                  const Discretisation &discretisation,
-                  std::vector<double> &load)
-{
+void add_traction(int id, const BoundaryCondition &condition, const Discretisation &discretisation,
+                  std::vector<double> &load) {
   const LagrangeBasis basis(discretisation.degree);
   const auto quadrature = gauss_quadrature(discretisation.degree + 2);
   const auto n_points = quadrature.points.size();
@@ -102,8 +84,7 @@ void add_traction(int id,
   std::vector<Point> points;
   std::vector<Vector> normals;
   std::vector<double> jxw;
-  for (const auto &edge : discretisation.edges)
-  {
+  for (const auto &edge : discretisation.edges) {
     if (edge.id != id)
       continue;
     const std::size_t first = nodes.size();
@@ -111,13 +92,11 @@ void add_traction(int id,
       nodes.push_back(discretisation.nodes_of(edge.cell)[discretisation.node_of_side(edge.side, k)]);
     // Right and bottom have the cell on the left of the direction of growing xi.
     const double sign = edge.side == 1 || edge.side == 2 ? 1 : -1;
-    for (std::size_t q = 0; q < n_points; ++q)
-    {
+    for (std::size_t q = 0; q < n_points; ++q) {
       Point x = discretisation.origin;
       Vector tangent{};
       for (std::size_t k = 0; k < n_nodes; ++k)
-        for (std::size_t d = 0; d < 2; ++d)
-        {
+        for (std::size_t d = 0; d < 2; ++d) {
           x[d] += shape[q][k] * discretisation.positions[nodes[first + k]][d];
           tangent[d] += derivative[q][k] * discretisation.positions[nodes[first + k]][d];
         }
@@ -130,22 +109,19 @@ void add_traction(int id,
 
   std::vector<Vector> values(points.size(), Vector{});
   condition.traction(points, normals, values);
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
+  for (std::size_t k = 0; k < points.size(); ++k) {
     for (std::size_t d = 0; d < 2; ++d)
       if (condition.kind[d] != ConditionKind::traction)
         values[k][d] = 0;
     check_finite(values[k], points[k], fmt::format("boundary id {}: the traction", id));
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t d = 0; d < 2; ++d)
-        load[2 * std::size_t{nodes[k / n_points * n_nodes + a]} + d] +=
-          shape[k % n_points][a] * jxw[k] * values[k][d];
+        load[2 * std::size_t{nodes[k / n_points * n_nodes + a]} + d] += shape[k % n_points][a] * jxw[k] * values[k][d];
   }
 }
 } // namespace
 
-std::vector<double> load_vector(const PlaneProblem &problem, const Discretisation &discretisation)
-{
+std::vector<double> load_vector(const PlaneProblem &problem, const Discretisation &discretisation) {
   std::vector<double> load(2 * discretisation.n_nodes(), 0.);
   if (problem.body_force)
     add_body_force(problem.body_force, discretisation, load);

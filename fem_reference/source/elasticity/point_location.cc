@@ -8,10 +8,8 @@
 
 #include <fmt/format.h>
 
-namespace fem_reference::elasticity
-{
-namespace
-{
+namespace fem_reference::elasticity {
+namespace {
 constexpr double tolerance = 1e-10;
 constexpr double largest_continuation = .25;
 
@@ -19,60 +17,47 @@ using mesh::Point;
 
 /// Corners of a cell in the order (0,0), (1,0), (0,1), (1,1). Sides are straight, so the corners
 /// alone give the geometry, whatever the degree.
-std::array<Point, 4> corners(const Discretisation &discretisation, std::size_t cell)
-{
+std::array<Point, 4> corners(const Discretisation &discretisation, std::size_t cell) {
   const auto nodes = discretisation.nodes_of(cell);
   const auto p = static_cast<std::size_t>(discretisation.degree);
-  return {discretisation.positions[nodes[0]],
-          discretisation.positions[nodes[p]],
-          discretisation.positions[nodes[p * (p + 1)]],
-          discretisation.positions[nodes[p * (p + 2)]]};
+  return {discretisation.positions[nodes[0]], discretisation.positions[nodes[p]],
+          discretisation.positions[nodes[p * (p + 1)]], discretisation.positions[nodes[p * (p + 2)]]};
 }
 
 /// The point of the segment from a to b closest to x: its parameter in [0, 1] and distance squared.
-struct Projection
-{
+struct Projection {
   double parameter;
   double distance_squared;
 };
-Projection project(Point x, Point a, Point b)
-{
+Projection project(Point x, Point a, Point b) {
   const Point ab = {b[0] - a[0], b[1] - a[1]};
   const Point ax = {x[0] - a[0], x[1] - a[1]};
-  const double t =
-    std::clamp((ab[0] * ax[0] + ab[1] * ax[1]) / (ab[0] * ab[0] + ab[1] * ab[1]), 0., 1.);
+  const double t = std::clamp((ab[0] * ax[0] + ab[1] * ax[1]) / (ab[0] * ab[0] + ab[1] * ab[1]), 0., 1.);
   const double d0 = ax[0] - t * ab[0];
   const double d1 = ax[1] - t * ab[1];
   return {t, d0 * d0 + d1 * d1};
 }
 
-double squared_distance(Point x, Point lower, Point upper)
-{
+double squared_distance(Point x, Point lower, Point upper) {
   const double d0 = std::max({lower[0] - x[0], 0., x[0] - upper[0]});
   const double d1 = std::max({lower[1] - x[1], 0., x[1] - upper[1]});
   return d0 * d0 + d1 * d1;
 }
 } // namespace
 
-PointLocation::PointLocation(const Discretisation &discretisation)
-  : discretisation_(discretisation)
-{
+PointLocation::PointLocation(const Discretisation &discretisation) : discretisation_(discretisation) {
   boxes_.reserve(discretisation.n_cells);
   Point upper{};
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
-  {
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
     const auto corner = corners(discretisation, c);
     Box box = {corner[0], corner[0]};
     for (const auto &x : corner)
-      for (std::size_t d = 0; d < 2; ++d)
-      {
+      for (std::size_t d = 0; d < 2; ++d) {
         box.lower[d] = std::min(box.lower[d], x[d]);
         box.upper[d] = std::max(box.upper[d], x[d]);
       }
-    const double margin =
-      1e-9 * std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
-    for (std::size_t d = 0; d < 2; ++d)
-    {
+    const double margin = 1e-9 * std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+    for (std::size_t d = 0; d < 2; ++d) {
       box.lower[d] -= margin;
       box.upper[d] += margin;
       lower_[d] = c == 0 ? box.lower[d] : std::min(lower_[d], box.lower[d]);
@@ -83,8 +68,7 @@ PointLocation::PointLocation(const Discretisation &discretisation)
   const double area = (upper[0] - lower_[0]) * (upper[1] - lower_[1]);
   const double size = std::sqrt(area / static_cast<double>(discretisation.n_cells));
   // A thin mesh still gets at least one bin; the cap keeps 32-bit products safe.
-  for (std::size_t d = 0; d < 2; ++d)
-  {
+  for (std::size_t d = 0; d < 2; ++d) {
     n_bins_[d] = static_cast<int>(std::clamp((upper[d] - lower_[d]) / size, 1., 30000.));
     bin_size_[d] = (upper[d] - lower_[d]) / n_bins_[d];
   }
@@ -105,29 +89,25 @@ PointLocation::PointLocation(const Discretisation &discretisation)
     for_each_bin(boxes_[c], [&](std::size_t bin) { bin_cells_[next[bin]++] = c; });
 }
 
-int PointLocation::bin_of(double coordinate, std::size_t direction) const
-{
+int PointLocation::bin_of(double coordinate, std::size_t direction) const {
   const double bin = (coordinate - lower_[direction]) / bin_size_[direction];
   return static_cast<int>(std::clamp(bin, 0., n_bins_[direction] - .5));
 }
 
 /// Newton's method for the bilinear map, from the centre. False if it does not converge, which for a
 /// convex cell happens only away from it.
-bool PointLocation::invert(std::size_t cell, Point point, Point &xi) const
-{
+bool PointLocation::invert(std::size_t cell, Point point, Point &xi) const {
   const auto x = corners(discretisation_, cell);
   Point a{};
   Point b{};
   Point c{};
-  for (std::size_t d = 0; d < 2; ++d)
-  {
+  for (std::size_t d = 0; d < 2; ++d) {
     a[d] = x[1][d] - x[0][d];
     b[d] = x[2][d] - x[0][d];
     c[d] = x[3][d] - x[2][d] - a[d];
   }
   xi = {.5, .5};
-  for (int iteration = 0; iteration < 20; ++iteration)
-  {
+  for (int iteration = 0; iteration < 20; ++iteration) {
     const Point d1 = {a[0] + c[0] * xi[1], a[1] + c[1] * xi[1]};
     const Point d2 = {b[0] + c[0] * xi[0], b[1] + c[1] * xi[0]};
     const double r0 = point[0] - x[0][0] - xi[0] * d1[0] - xi[1] * b[0];
@@ -145,23 +125,18 @@ bool PointLocation::invert(std::size_t cell, Point point, Point &xi) const
   return false;
 }
 
-Location PointLocation::locate(Point point) const
-{
+Location PointLocation::locate(Point point) const {
   if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
-    throw InvalidInput(fmt::format("evaluation point ({}, {}) is not finite",
-                                   discretisation_.origin[0] + point[0],
+    throw InvalidInput(fmt::format("evaluation point ({}, {}) is not finite", discretisation_.origin[0] + point[0],
                                    discretisation_.origin[1] + point[1]));
-  const std::size_t bin =
-    static_cast<std::size_t>(bin_of(point[1], 1)) * n_bins_[0] + bin_of(point[0], 0);
+  const std::size_t bin = static_cast<std::size_t>(bin_of(point[1], 1)) * n_bins_[0] + bin_of(point[0], 0);
   Location location;
-  for (unsigned k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k)
-  {
+  for (unsigned k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k) {
     const auto &box = boxes_[bin_cells_[k]];
     if (squared_distance(point, box.lower, box.upper) > 0 || !invert(bin_cells_[k], point, location.xi))
       continue;
     const auto [s, t] = location.xi;
-    if (s >= -tolerance && s <= 1 + tolerance && t >= -tolerance && t <= 1 + tolerance)
-    {
+    if (s >= -tolerance && s <= 1 + tolerance && t >= -tolerance && t <= 1 + tolerance) {
       location.cell = bin_cells_[k];
       return location;
     }
@@ -170,8 +145,7 @@ Location PointLocation::locate(Point point) const
 }
 
 /// Search rings of bins around the point's own until no closer cell is possible.
-Location PointLocation::nearest(Point point) const
-{
+Location PointLocation::nearest(Point point) const {
   const std::array<int, 2> centre = {bin_of(point[0], 0), bin_of(point[1], 1)};
   double best = std::numeric_limits<double>::max();
   Location location;
@@ -182,12 +156,9 @@ Location PointLocation::nearest(Point point) const
       return;
     const auto x = corners(discretisation_, cell);
     const std::array<std::array<int, 2>, 4> sides = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-    for (std::size_t side = 0; side < 4; ++side)
-    {
+    for (std::size_t side = 0; side < 4; ++side) {
       const auto projection = project(point, x[sides[side][0]], x[sides[side][1]]);
-      if (projection.distance_squared < best ||
-          (projection.distance_squared == best && cell < location.cell))
-      {
+      if (projection.distance_squared < best || (projection.distance_squared == best && cell < location.cell)) {
         best = projection.distance_squared;
         location.cell = cell;
         const double t = projection.parameter;
@@ -199,16 +170,14 @@ Location PointLocation::nearest(Point point) const
                         std::clamp(point[1], lower_[1], lower_[1] + n_bins_[1] * bin_size_[1])};
   const double gap_squared = squared_distance(point, inside, inside);
   const int last_ring = std::max(n_bins_[0], n_bins_[1]);
-  for (int ring = 0; ring <= last_ring; ++ring)
-  {
+  for (int ring = 0; ring <= last_ring; ++ring) {
     // Cells first met in this ring are at least ring - 1 bins away from `inside`, which is the
     // projection of the point on the convex box of bins: the squares of both distances add up.
     const double reach = std::max(0, ring - 1) * std::min(bin_size_[0], bin_size_[1]);
     if (gap_squared + reach * reach > best)
       break;
     for (int j = std::max(0, centre[1] - ring); j <= std::min(n_bins_[1] - 1, centre[1] + ring); ++j)
-      for (int i = std::max(0, centre[0] - ring); i <= std::min(n_bins_[0] - 1, centre[0] + ring); ++i)
-      {
+      for (int i = std::max(0, centre[0] - ring); i <= std::min(n_bins_[0] - 1, centre[0] + ring); ++i) {
         if (std::max(std::abs(i - centre[0]), std::abs(j - centre[1])) != ring)
           continue;
         const std::size_t bin = static_cast<std::size_t>(j) * n_bins_[0] + i;
@@ -217,8 +186,7 @@ Location PointLocation::nearest(Point point) const
       }
   }
   // Where the cell's map cannot be continued to the point, the closest point of its border stands in.
-  if (!invert(location.cell, point, location.xi) ||
-      squared_distance(location.xi, {-1, -1}, {2, 2}) > 0)
+  if (!invert(location.cell, point, location.xi) || squared_distance(location.xi, {-1, -1}, {2, 2}) > 0)
     location.xi = on_border;
   for (auto &coordinate : location.xi)
     coordinate = std::clamp(coordinate, -largest_continuation, 1 + largest_continuation);

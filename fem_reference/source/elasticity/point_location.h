@@ -6,11 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace fem_reference::elasticity
-{
+namespace fem_reference::elasticity {
 /// A cell and the reference coordinates of a point in it.
-struct Location
-{
+struct Location {
   std::size_t cell = 0;
   mesh::Point xi{};
   bool outside = false;
@@ -18,8 +16,7 @@ struct Location
 
 /// Finds the cell of a point by a uniform grid of bins over the mesh, about one cell a bin.
 /// Positions are relative to the discretisation's origin; it must outlive this object.
-class PointLocation
-{
+class PointLocation {
 public:
   explicit PointLocation(const Discretisation &discretisation);
 
@@ -29,8 +26,7 @@ public:
   Location locate(mesh::Point point) const;
 
 private:
-  struct Box
-  {
+  struct Box {
     mesh::Point lower;
     mesh::Point upper;
   };

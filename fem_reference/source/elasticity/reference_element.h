@@ -3,14 +3,12 @@
 #include <array>
 #include <vector>
 
-namespace fem_reference::elasticity
-{
+namespace fem_reference::elasticity {
 inline constexpr int max_degree = 4;
 inline constexpr int max_nodes_1d = max_degree + 1;
 
 /// Lagrange polynomials on [0, 1] with nodes at the Gauss-Lobatto points, as deal.II's FE_Q.
-class LagrangeBasis
-{
+class LagrangeBasis {
 public:
   using Values = std::array<double, max_nodes_1d>;
 
@@ -29,8 +27,7 @@ private:
 };
 
 /// Gauss quadrature on [0, 1].
-struct Quadrature1d
-{
+struct Quadrature1d {
   std::vector<double> points;
   std::vector<double> weights;
 };
@@ -38,8 +35,7 @@ Quadrature1d gauss_quadrature(int n_points);
 
 /// Shape functions of Qp, nodes in lexicographic order, at the points of a tensor Gauss quadrature:
 /// values[q * n_nodes + a], gradients_i[q * n_nodes + a] = d N_a / d xi_i.
-struct ShapeTable
-{
+struct ShapeTable {
   ShapeTable(int degree, int n_points_1d);
 
   int n_nodes;

@@ -8,12 +8,8 @@
 
 #include <fmt/format.h>
 
-namespace fem_reference::linear_algebra
-{
-BlockMatrix::BlockMatrix(std::size_t n_nodes,
-                         std::span<const unsigned> cell_nodes,
-                         unsigned nodes_per_cell)
-{
+namespace fem_reference::linear_algebra {
+BlockMatrix::BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_nodes, unsigned nodes_per_cell) {
   // The cells of every node.
   std::vector<unsigned> start(n_nodes + 1, 0);
   for (const unsigned node : cell_nodes)
@@ -33,40 +29,35 @@ BlockMatrix::BlockMatrix(std::size_t n_nodes,
   block_start.push_back(0);
   // 16 bits of room below the limit of 4 entries a block.
   constexpr std::size_t most_blocks = std::numeric_limits<int>::max() / 4;
-  for (unsigned j = 0; j < n_nodes; ++j)
-  {
+  for (unsigned j = 0; j < n_nodes; ++j) {
     const auto first = static_cast<std::ptrdiff_t>(block_rows.size());
     for (unsigned k = start[j]; k < start[j + 1]; ++k)
       for (const unsigned i : cell_nodes.subspan(std::size_t{cells[k]} * nodes_per_cell, nodes_per_cell))
-        if (i >= j && seen_in[i] != j)
-        {
+        if (i >= j && seen_in[i] != j) {
           seen_in[i] = j;
           block_rows.push_back(static_cast<int>(i));
         }
     std::sort(block_rows.begin() + first, block_rows.end());
     if (block_rows.size() > most_blocks)
       throw SolveFailure(
-        fmt::format("the matrix of {} unknowns has more than 2^31 entries; use a coarser mesh", 2 * n_nodes));
+          fmt::format("the matrix of {} unknowns has more than 2^31 entries; use a coarser mesh", 2 * n_nodes));
     block_start.push_back(static_cast<int>(block_rows.size()));
   }
   values.assign(4 * block_rows.size() - n_nodes, 0.);
 }
 
-int BlockMatrix::find(unsigned row, unsigned column) const
-{
+int BlockMatrix::find(unsigned row, unsigned column) const {
   const int *begin = block_rows.data() + block_start[column];
   const int *end = block_rows.data() + block_start[column + 1];
   return static_cast<int>(std::lower_bound(begin, end, static_cast<int>(row)) - block_rows.data());
 }
 
-void BlockMatrix::scalar_pattern(std::vector<int> &column_start, std::vector<int> &rows) const
-{
+void BlockMatrix::scalar_pattern(std::vector<int> &column_start, std::vector<int> &rows) const {
   column_start.resize(static_cast<std::size_t>(n_rows()) + 1);
   rows.resize(values.size());
   int entry = 0;
   for (int j = 0; j < n_nodes(); ++j)
-    for (int s = 0; s < 2; ++s)
-    {
+    for (int s = 0; s < 2; ++s) {
       column_start[static_cast<std::size_t>(2 * j + s)] = entry;
       for (int k = block_start[j]; k < block_start[j + 1]; ++k)
         for (int r = (k == block_start[j] ? s : 0); r < 2; ++r)
@@ -75,23 +66,18 @@ void BlockMatrix::scalar_pattern(std::vector<int> &column_start, std::vector<int
   column_start.back() = entry;
 }
 
-void multiply(const BlockMatrix &matrix,
-              std::span<const double> x,
-              std::span<double> y,
-              std::span<double> absolute_row_sums)
-{
+void multiply(const BlockMatrix &matrix, std::span<const double> x, std::span<double> y,
+              std::span<double> absolute_row_sums) {
   std::fill(y.begin(), y.end(), 0.);
   std::fill(absolute_row_sums.begin(), absolute_row_sums.end(), 0.);
   std::size_t entry = 0;
   for (int j = 0; j < matrix.n_nodes(); ++j)
-    for (int s = 0; s < 2; ++s)
-    {
+    for (int s = 0; s < 2; ++s) {
       const int column = 2 * j + s;
       double sum = 0;
       double absolute_sum = 0;
       for (int k = matrix.block_start[j]; k < matrix.block_start[j + 1]; ++k)
-        for (int r = (k == matrix.block_start[j] ? s : 0); r < 2; ++r)
-        {
+        for (int r = (k == matrix.block_start[j] ? s : 0); r < 2; ++r) {
           const int row = 2 * matrix.block_rows[k] + r;
           const double value = matrix.values[entry++];
           sum += value * x[row];

@@ -4,15 +4,13 @@
 #include <span>
 #include <vector>
 
-namespace fem_reference::linear_algebra
-{
+namespace fem_reference::linear_algebra {
 /// Lower triangle of a symmetric matrix of 2 x 2 blocks, in compressed columns.
 ///
 /// Block column j holds the block rows block_rows[block_start[j]] = j < ... , sorted. The scalar
 /// columns 2 j and 2 j + 1 follow each other in `values`; the entry (2 j, 2 j + 1) is left out.
 /// 32-bit indices, as CHOLMOD's fast interface takes.
-class BlockMatrix
-{
+class BlockMatrix {
 public:
   /// Sparsity of a space whose unknowns couple within cells: `cell_nodes` lists nodes_per_cell nodes a
   /// cell. Throws SolveFailure if the number of entries exceeds 32 bits.
@@ -27,10 +25,7 @@ public:
 
   /// First entry of scalar column 2 j in `values`, from the block position: columns before take
   /// 4 m - 1 entries each.
-  std::size_t first_entry(unsigned column) const
-  {
-    return 4 * static_cast<std::size_t>(block_start[column]) - column;
-  }
+  std::size_t first_entry(unsigned column) const { return 4 * static_cast<std::size_t>(block_start[column]) - column; }
 
   /// Row pointers and indices of the scalar matrix, sorted.
   void scalar_pattern(std::vector<int> &column_start, std::vector<int> &rows) const;
@@ -41,8 +36,6 @@ public:
 };
 
 /// y = A x for the symmetric matrix, and the row sums of |A| if `absolute_row_sums` is not empty.
-void multiply(const BlockMatrix &matrix,
-              std::span<const double> x,
-              std::span<double> y,
+void multiply(const BlockMatrix &matrix, std::span<const double> x, std::span<double> y,
               std::span<double> absolute_row_sums);
 } // namespace fem_reference::linear_algebra

@@ -8,26 +8,21 @@
 #include <fmt/format.h>
 #include <suitesparse/cholmod.h>
 
-namespace fem_reference::linear_algebra
-{
-namespace
-{
+namespace fem_reference::linear_algebra {
+namespace {
 /// One OpenMP thread for this scope. CHOLMOD asks for four in its own loops whatever OMP_NUM_THREADS
 /// says, which on few cores costs half of the factorisation's time; BLAS has its own setting. The
 /// function is looked up because it is CHOLMOD, not this library, that links OpenMP (or does not).
-class SerialOpenMp
-{
+class SerialOpenMp {
 public:
   SerialOpenMp()
-    : get_levels_(find<int (*)()>("omp_get_max_active_levels"))
-    , set_levels_(find<void (*)(int)>("omp_set_max_active_levels"))
-    , levels_(get_levels_ != nullptr ? get_levels_() : 0)
-  {
+      : get_levels_(find<int (*)()>("omp_get_max_active_levels")),
+        set_levels_(find<void (*)(int)>("omp_set_max_active_levels")),
+        levels_(get_levels_ != nullptr ? get_levels_() : 0) {
     if (set_levels_ != nullptr)
       set_levels_(0);
   }
-  ~SerialOpenMp()
-  {
+  ~SerialOpenMp() {
     if (set_levels_ != nullptr)
       set_levels_(levels_);
   }
@@ -36,8 +31,7 @@ public:
 
 private:
   template <typename Function>
-  static Function find(const char *name)
-  {
+  static Function find(const char *name) {
     return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
   }
 
@@ -47,11 +41,9 @@ private:
 };
 
 /// CHOLMOD's workspace and factor, freed through it.
-class Cholesky : public DirectSolver
-{
+class Cholesky : public DirectSolver {
 public:
-  Cholesky()
-  {
+  Cholesky() {
     cholmod_start(&common_);
     common_.print = 0;
     common_.nmethods = 1;
@@ -60,8 +52,7 @@ public:
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.final_ll = 1;
   }
-  ~Cholesky() override
-  {
+  ~Cholesky() override {
     cholmod_free_factor(&factor_, &common_);
     cholmod_finish(&common_);
   }
@@ -71,8 +62,7 @@ public:
   std::vector<double> solve(std::span<const double> right_hand_side) override;
 
 private:
-  void check(const char *step) const
-  {
+  void check(const char *step) const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY)
       throw SolveFailure(fmt::format("Cholesky: out of memory in {}", step));
     if (common_.status == CHOLMOD_TOO_LARGE)
@@ -86,8 +76,7 @@ private:
 };
 
 /// A view of compressed columns, lower triangle.
-cholmod_sparse view(int n, std::vector<int> &start, std::vector<int> &rows, double *values)
-{
+cholmod_sparse view(int n, std::vector<int> &start, std::vector<int> &rows, double *values) {
   cholmod_sparse sparse{};
   sparse.nrow = sparse.ncol = static_cast<std::size_t>(n);
   sparse.nzmax = rows.size();
@@ -105,8 +94,7 @@ cholmod_sparse view(int n, std::vector<int> &start, std::vector<int> &rows, doub
 
 /// AMD on the graph of nodes, four times smaller than that of the unknowns; both unknowns of a node
 /// stay together, which also helps the supernodes.
-std::vector<int> Cholesky::order_nodes(const BlockMatrix &matrix)
-{
+std::vector<int> Cholesky::order_nodes(const BlockMatrix &matrix) {
   auto start = matrix.block_start;
   auto rows = matrix.block_rows;
   cholmod_sparse graph = view(matrix.n_nodes(), start, rows, nullptr);
@@ -115,31 +103,27 @@ std::vector<int> Cholesky::order_nodes(const BlockMatrix &matrix)
   check("ordering");
   std::vector<int> permutation;
   permutation.reserve(2 * nodes.size());
-  for (const int node : nodes)
-  {
+  for (const int node : nodes) {
     permutation.push_back(2 * node);
     permutation.push_back(2 * node + 1);
   }
   return permutation;
 }
 
-void Cholesky::factorise(cholmod_sparse &matrix, std::vector<int> &permutation)
-{
+void Cholesky::factorise(cholmod_sparse &matrix, std::vector<int> &permutation) {
   factor_ = cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &common_);
   check("analysis");
   cholmod_factorize(&matrix, factor_, &common_);
   check("factorisation");
   if (common_.status == CHOLMOD_NOT_POSDEF || factor_->minor < factor_->n)
-    throw PivotFailure{static_cast<const int *>(factor_->Perm)[factor_->minor],
-                       "its pivot is not positive"};
+    throw PivotFailure{static_cast<const int *>(factor_->Perm)[factor_->minor], "its pivot is not positive"};
   // Ratio of the extreme diagonal entries of L, squared: 1e-14 leaves no digits for the solution.
   const double condition = cholmod_rcond(factor_, &common_);
   if (!(condition > 1e-14))
     throw PivotFailure{-1, fmt::format("the reciprocal condition number is about {:.1e}", condition)};
 }
 
-std::vector<double> Cholesky::solve(std::span<const double> right_hand_side)
-{
+std::vector<double> Cholesky::solve(std::span<const double> right_hand_side) {
   const SerialOpenMp serial;
   std::vector<double> copy(right_hand_side.begin(), right_hand_side.end());
   cholmod_dense b{};
@@ -157,8 +141,7 @@ std::vector<double> Cholesky::solve(std::span<const double> right_hand_side)
 }
 } // namespace
 
-std::unique_ptr<DirectSolver> factorise_cholesky(const BlockMatrix &matrix)
-{
+std::unique_ptr<DirectSolver> factorise_cholesky(const BlockMatrix &matrix) {
   const SerialOpenMp serial;
   auto solver = std::make_unique<Cholesky>();
   auto permutation = solver->order_nodes(matrix);

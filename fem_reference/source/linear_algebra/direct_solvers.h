@@ -7,18 +7,15 @@
 #include <string>
 #include <vector>
 
-namespace fem_reference::linear_algebra
-{
+namespace fem_reference::linear_algebra {
 /// A pivot that is not usable; `unknown` is its row, or -1 if not known.
-struct PivotFailure
-{
+struct PivotFailure {
   int unknown;
   std::string reason;
 };
 
 /// A factorised matrix. It does not refer to the matrix unless said otherwise.
-class DirectSolver
-{
+class DirectSolver {
 public:
   DirectSolver() = default;
   DirectSolver(const DirectSolver &) = delete;

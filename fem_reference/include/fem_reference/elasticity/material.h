@@ -1,12 +1,7 @@
 #pragma once
 
-namespace fem_reference::elasticity
-{
-enum class PlaneModel
-{
-  plane_stress,
-  plane_strain
-};
+namespace fem_reference::elasticity {
+enum class PlaneModel { plane_stress, plane_strain };
 
 /// Isotropic linear elastic material in plane stress or plane strain.
 ///
@@ -14,8 +9,7 @@ enum class PlaneModel
 ///   plane strain: lambda = E nu / ((1 + nu) (1 - 2 nu)),
 ///   plane stress: lambda* = 2 lambda mu / (lambda + 2 mu) = E nu / (1 - nu^2).
 /// The last form has no cancellation near nu = 1/2 and is finite there.
-class Material
-{
+class Material {
 public:
   /// Young's modulus in Pa, > 0; Poisson's ratio in (-1, 1/2) for plane strain and (-1, 1/2] for
   /// plane stress. Throws InvalidInput otherwise.

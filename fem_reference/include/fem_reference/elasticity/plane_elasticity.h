@@ -11,8 +11,7 @@
 #include <memory>
 #include <span>
 
-namespace fem_reference::elasticity
-{
+namespace fem_reference::elasticity {
 using mesh::Point; // metres
 using mesh::QuadrilateralMesh;
 using Vector = std::array<double, 2>;
@@ -21,19 +20,14 @@ using Vector = std::array<double, 2>;
 using VectorField = std::function<void(std::span<const Point> points, std::span<Vector> values)>;
 
 /// As VectorField, with the unit outward normal at each point; values in Pa.
-using TractionField = std::function<
-  void(std::span<const Point> points, std::span<const Vector> normals, std::span<Vector> values)>;
+using TractionField =
+    std::function<void(std::span<const Point> points, std::span<const Vector> normals, std::span<Vector> values)>;
 
-enum class ConditionKind
-{
-  displacement,
-  traction
-};
+enum class ConditionKind { displacement, traction };
 
 /// What is prescribed on the edges of one boundary id, component by component.
 /// `displacement` is needed where a component is of that kind. An empty `traction` means zero.
-struct BoundaryCondition
-{
+struct BoundaryCondition {
   std::array<ConditionKind, 2> kind = {ConditionKind::traction, ConditionKind::traction};
   VectorField displacement = {};
   TractionField traction = {};
@@ -48,8 +42,7 @@ struct BoundaryCondition
 /// Coordinates are shifted to an origin within the mesh before anything is computed, so that a mesh
 /// far from the origin loses only what its own coordinates have lost. Callbacks receive, and
 /// evaluation expects, the original coordinates.
-struct PlaneProblem
-{
+struct PlaneProblem {
   QuadrilateralMesh mesh;
   Material material;
   /// One condition for each boundary id of the mesh.
@@ -58,14 +51,12 @@ struct PlaneProblem
   VectorField body_force = {};
 };
 
-enum class LinearSolver
-{
+enum class LinearSolver {
   cholesky, ///< CHOLMOD, supernodal L L^T
   umfpack   ///< UMFPACK, L U of the full matrix
 };
 
-struct Options
-{
+struct Options {
   /// Q1 ... Q4: polynomial degree of displacement and geometry.
   int degree = 2;
   LinearSolver solver = LinearSolver::cholesky;
@@ -76,8 +67,7 @@ struct Options
 };
 
 /// Wall-clock seconds by phase.
-struct Seconds
-{
+struct Seconds {
   double mesh = 0;               ///< checks and triangulation
   double degrees_of_freedom = 0; ///< numbering, node positions, sparsity pattern
   double assembly = 0;           ///< stiffness, loads, essential data
@@ -87,8 +77,7 @@ struct Seconds
 };
 
 /// The finite element solution. Cheap to move and to copy (copies share the immutable data).
-class PlaneSolution
-{
+class PlaneSolution {
 public:
   class Implementation;
   explicit PlaneSolution(std::shared_ptr<const Implementation> implementation);

@@ -4,18 +4,15 @@
 #include <span>
 #include <vector>
 
-namespace fem_reference::mesh
-{
+namespace fem_reference::mesh {
 /// Position in metres.
 using Point = std::array<double, 2>;
 
 /// Plain mesh of quadrilaterals with straight sides. Nothing is checked on construction; `check`
 /// does it, and the solver calls it.
-struct QuadrilateralMesh
-{
+struct QuadrilateralMesh {
   /// A side of a cell that lies on the boundary, in either direction, with its boundary id (>= 0).
-  struct BoundaryEdge
-  {
+  struct BoundaryEdge {
     std::array<unsigned, 2> vertices;
     int id;
   };
@@ -28,8 +25,7 @@ struct QuadrilateralMesh
 };
 
 /// Where a boundary edge sits: the cell and the cell's own side k, from its vertex k to k + 1.
-struct CellSide
-{
+struct CellSide {
   unsigned cell;
   unsigned side;
 };
@@ -49,6 +45,5 @@ QuadrilateralMesh rectangle(Point lower, Point upper, unsigned vertices_x, unsig
 
 /// The same topology with given vertex positions (vertices_x * vertices_y of them, row by row), for
 /// example a grid with moved interior vertices. Refuses inverted cells, by index.
-QuadrilateralMesh
-rectangle(std::span<const Point> vertices, unsigned vertices_x, unsigned vertices_y);
+QuadrilateralMesh rectangle(std::span<const Point> vertices, unsigned vertices_x, unsigned vertices_y);
 } // namespace fem_reference::mesh
