@@ -135,9 +135,17 @@ double half_unit(const std::string &printed) {
   return 0.5000001 * std::pow(10.0, exponent - decimals);
 }
 
-std::size_t n_compared = 0;
+/// Compares and counts.
+class Comparison {
+public:
+  void expect_printed(const std::string &printed, const Json &value, const std::string &where);
+  std::size_t n_compared() const { return n_compared_; }
 
-void expect_printed(const std::string &printed, const Json &value, const std::string &where) {
+private:
+  std::size_t n_compared_ = 0;
+};
+
+void Comparison::expect_printed(const std::string &printed, const Json &value, const std::string &where) {
   if (printed == no_number || printed.empty()) {
     EXPECT_TRUE(value.is_null()) << where << ": nothing printed, but the value is " << value;
     return;
@@ -147,7 +155,7 @@ void expect_printed(const std::string &printed, const Json &value, const std::st
   ASSERT_EQ(*end, '\0') << where << ": '" << printed << "' is no number";
   ASSERT_TRUE(value.is_number()) << where << ": printed " << printed << ", but the value is " << value;
   EXPECT_LE(std::abs(number - value.get<double>()), half_unit(printed)) << where;
-  ++n_compared;
+  ++n_compared_;
 }
 
 Json scaled(const Json &value, double factor) { return value.is_number() ? Json(value.get<double>() * factor) : value; }
@@ -194,7 +202,7 @@ const Json *find_cell(const Json &json, const std::string &title, const std::str
   return nullptr;
 }
 
-void check_cell_table(const Json &json, const Results &results, const ParsedTable &table) {
+void check_cell_table(Comparison &comparison, const Json &json, const Results &results, const ParsedTable &table) {
   for (const auto &row : table.rows) {
     std::map<std::string, std::string> fields;
     for (std::size_t j = 0; j < row.size(); ++j)
@@ -208,16 +216,16 @@ void check_cell_table(const Json &json, const Results &results, const ParsedTabl
           for (const Cell *other : group.cells)
             if (group.title() == table.title && other->label == fields["method"] && other->level == fields["level"]) {
               const auto rate = observed_rate(group, *other, "displacement_l2_relative");
-              expect_printed(printed, rate ? Json(*rate) : Json(), where);
+              comparison.expect_printed(printed, rate ? Json(*rate) : Json(), where);
             }
       } else if (const auto value = value_of(*cell, table.section, header)) {
-        expect_printed(printed, *value, where);
+        comparison.expect_printed(printed, *value, where);
       }
     }
   }
 }
 
-void check_ledger_table(const Json &json, const ParsedTable &table) {
+void check_ledger_table(Comparison &comparison, const Json &json, const ParsedTable &table) {
   const auto column = [&](const char *name) {
     return static_cast<std::size_t>(std::find(table.header.begin(), table.header.end(), name) - table.header.begin());
   };
@@ -232,34 +240,34 @@ void check_ledger_table(const Json &json, const ParsedTable &table) {
     ASSERT_LT(i, values.size());
     const Json &entry = values[i++];
     for (const char *name : {"published", "computed", "tolerance"})
-      expect_printed(row[column(name)], entry[name], entry["entry"].get<std::string>() + ", " + name);
-    expect_printed(row[column("difference")], entry["computed"].get<double>() - entry["published"].get<double>(),
-                   "difference");
+      comparison.expect_printed(row[column(name)], entry[name], entry["entry"].get<std::string>() + ", " + name);
+    comparison.expect_printed(row[column("difference")],
+                              entry["computed"].get<double>() - entry["published"].get<double>(), "difference");
   }
   EXPECT_EQ(i, values.size());
 }
 
-void check_equal_error(const Json &json, const ParsedTable &table) {
+void check_equal_error(Comparison &comparison, const Json &json, const ParsedTable &table) {
   ASSERT_EQ(table.rows.size(), json["equal_error"].size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    expect_printed(table.rows[i][1], json["equal_error"][i]["target"], "target");
-    expect_printed(table.rows[i][3], json["equal_error"][i]["seconds"], "seconds");
+    comparison.expect_printed(table.rows[i][1], json["equal_error"][i]["target"], "target");
+    comparison.expect_printed(table.rows[i][3], json["equal_error"][i]["seconds"], "seconds");
   }
 }
 
 void check(const std::vector<ParsedTable> &tables) {
   const Results results = reports_sample::results();
   const Json json = to_json(results);
-  n_compared = 0;
+  Comparison comparison;
   std::map<std::string, int> seen;
   for (const ParsedTable &table : tables) {
     ++seen[table.section];
     if (table.section == "Seconds for equal errors")
-      check_equal_error(json, table);
+      check_equal_error(comparison, json, table);
     else if (table.section != "Published numbers and claims")
-      check_cell_table(json, results, table);
+      check_cell_table(comparison, json, results, table);
     else if (table.header[1] != "claim")
-      check_ledger_table(json, table);
+      check_ledger_table(comparison, json, table);
   }
   const std::map<std::string, int> expected{{"Comparison", 3},
                                             {"Published numbers and claims", 2},
@@ -267,7 +275,7 @@ void check(const std::vector<ParsedTable> &tables) {
                                             {"Seconds by phase", 3},
                                             {"Further errors and quantities", 3}};
   EXPECT_EQ(seen, expected);
-  EXPECT_GT(n_compared, 150u);
+  EXPECT_GT(comparison.n_compared(), 150u);
 }
 
 /// RFC 4180.
