@@ -70,6 +70,8 @@ std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positi
 {
   if (positions.size() < 2)
     throw std::invalid_argument("a smoothing length needs at least two particles");
+  if (k < 1)
+    throw std::invalid_argument(fmt::format("a smoothing length from the {} nearest particles; at least 1 is needed", k));
   const PointTree<dim> tree(positions);
   std::vector<double> lengths(positions.size());
   std::vector<Index> indices;

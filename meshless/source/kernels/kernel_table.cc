@@ -23,8 +23,12 @@ Kernel make_kernel(std::string_view name, double support, std::optional<double> 
     throw std::invalid_argument(fmt::format("kernel {}: its support {} is not positive", name, support));
   if (name == "gauss")
     return Gauss(support);
-  if (name == "revised_super_gauss")
-    return RevisedSuperGauss(support, parameter.value_or(1.6));
+  if (name == "revised_super_gauss") {
+    const double decay = parameter.value_or(1.6);
+    if (!(decay > 0))
+      throw std::invalid_argument(fmt::format("kernel {}: its decay {} is not positive", name, decay));
+    return RevisedSuperGauss(support, decay);
+  }
   std::string names;
   for (const auto &entry : table)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);

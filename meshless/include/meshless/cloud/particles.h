@@ -55,6 +55,7 @@ std::vector<double> smoothing_lengths_by_nearest(std::span<const Point<dim>> pos
 
 /// Smoothing length from the mean distance of the k nearest neighbours, times `factor`; robust on
 /// anisotropic clouds, where the nearest distance alone leaves particles without neighbours.
+/// @throws std::invalid_argument for fewer than two particles or k < 1
 template <int dim>
 std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positions, int k, double factor);
 

@@ -29,7 +29,8 @@ std::span<const KernelDescription> kernel_table();
 
 /// @param support radius in units of h, > 0
 /// @param parameter the kernel's own parameter; the default of the table if absent
-/// @throws std::invalid_argument listing the valid names if there is no such kernel
+/// @throws std::invalid_argument listing the valid names if there is no such kernel; for a support
+///   or a parameter that is not positive
 Kernel make_kernel(std::string_view name, double support, std::optional<double> parameter = {});
 
 /// Radius of the support in units of h.
