@@ -96,7 +96,7 @@ public:
     if (operand.change == Change::none || !reading.value)
       return reading;
     double reference_spacing = 0;
-    const Reading reference = read(operand.from, operand.quantity, reference_spacing);
+    Reading reference = read(operand.from, operand.quantity, reference_spacing);
     if (!reference.value)
       return reference;
     const double changed = apply(operand.change, *reading.value, *reference.value, spacing, reference_spacing);

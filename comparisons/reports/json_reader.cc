@@ -71,7 +71,7 @@ public:
     expect(json_->is_array(), "an array");
     std::vector<Node> nodes;
     for (std::size_t i = 0; i < json_->size(); ++i)
-      nodes.push_back({(*json_)[i], fmt::format("{}[{}]", path_, i)});
+      nodes.emplace_back((*json_)[i], fmt::format("{}[{}]", path_, i));
     return nodes;
   }
 
