@@ -50,15 +50,22 @@ bool matches(const Selector &wanted, const Cell &cell) {
   return true;
 }
 
-std::string name_of(const Selector &cell) {
+/// What a name must tell to be understood: in a comparison, only that in which its cells differ.
+struct Naming {
+  bool scene = false;
+  bool level = true;
+  bool variant = true;
+};
+
+std::string name_of(const Selector &cell, const Naming &naming = {}) {
   std::string name = cell.label.empty() ? cell.method : cell.label;
   for (const auto &[key, value] : cell.parameters.items())
     name += fmt::format(" {}={}", key, value.is_string() ? value.get<std::string>() : value.dump());
-  if (!cell.level.empty())
-    name += (name.empty() ? "" : ", ") + cell.level;
-  if (cell.variant && !cell.variant->empty())
+  if (naming.level && !cell.level.empty())
+    name += ", " + cell.level;
+  if (naming.variant && cell.variant && !cell.variant->empty())
     name += ", " + *cell.variant;
-  return name;
+  return naming.scene ? fmt::format("{} of {}", name, cell.scene) : name;
 }
 
 std::optional<double> quantity_of(const Cell &cell, const std::string &name) {
@@ -201,28 +208,28 @@ std::string shown(const Operand &operand, double value) {
 }
 
 /// What the reference cell of a change has that the cell itself has not.
-std::string difference_in_name(const Operand &operand) {
+std::string difference_in_name(const Operand &operand, const Naming &naming) {
   if (operand.from.level != operand.cell.level)
     return operand.from.level;
-  return name_of(operand.from);
+  return name_of(operand.from, naming);
 }
 
-std::string described(const Operand &operand, double value) {
-  std::string name = name_of(operand.cell);
+std::string described(const Operand &operand, double value, const Naming &naming) {
+  std::string name = name_of(operand.cell, naming);
   if (operand.change == Change::rate)
-    name += fmt::format(" (rate from {})", difference_in_name(operand));
+    name += fmt::format(" (rate from {})", difference_in_name(operand, naming));
   else if (operand.change != Change::none)
-    name += fmt::format(" (change from {})", difference_in_name(operand));
+    name += fmt::format(" (change from {})", difference_in_name(operand, naming));
   return fmt::format("{} = {}", name, shown(operand, value));
 }
 
-/// Every scene that an entry looks at.
-std::vector<std::string> scenes_of(const Entry &entry) {
-  std::vector<std::string> scenes;
+/// Every cell that an entry looks at.
+std::vector<const Selector *> selectors_of(const Entry &entry) {
+  std::vector<const Selector *> selectors;
   const auto add = [&](const Operand &operand) {
-    scenes.push_back(operand.cell.scene);
+    selectors.push_back(&operand.cell);
     if (operand.change != Change::none)
-      scenes.push_back(operand.from.scene);
+      selectors.push_back(&operand.from);
   };
   if (entry.kind == Kind::value)
     add(entry.value);
@@ -231,7 +238,32 @@ std::vector<std::string> scenes_of(const Entry &entry) {
     if (const auto *right = std::get_if<Operand>(&condition.right))
       add(*right);
   }
-  return scenes;
+  return selectors;
+}
+
+Naming naming_of(const Entry &entry) {
+  const std::vector<const Selector *> cells = selectors_of(entry);
+  const auto differ = [&](auto member) {
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const Selector *cell) { return cell->*member != cells.front()->*member; });
+  };
+  return {differ(&Selector::scene), differ(&Selector::level), differ(&Selector::variant)};
+}
+
+std::string quantity_name(const Operand &operand) {
+  switch (operand.change) {
+  case Change::difference:
+    return "difference of " + operand.quantity;
+  case Change::relative:
+    return "relative change of " + operand.quantity;
+  case Change::ratio:
+    return "ratio of " + operand.quantity;
+  case Change::rate:
+    return "rate of " + operand.quantity;
+  case Change::none:
+    break;
+  }
+  return operand.quantity;
 }
 
 struct Outcome {
@@ -256,7 +288,7 @@ void settle_value(Outcome &outcome, const Entry &entry, const Cells &cells) {
   published.variant = cell.variant.value_or("");
   published.method = cell.label.empty() ? cell.method : cell.label;
   published.level = cell.level;
-  published.quantity = entry.value.quantity;
+  published.quantity = quantity_name(entry.value);
   published.published = entry.published;
   published.tolerance = entry.tolerance;
   const Reading reading = cells.read(entry.value);
@@ -292,8 +324,9 @@ void settle_claim(Outcome &outcome, const Entry &entry, const Cells &cells) {
   published.variant = first.cell.variant.value_or("");
   published.method = first.cell.label.empty() ? first.cell.method : first.cell.label;
   published.level = first.cell.level;
-  published.quantity = first.quantity;
+  published.quantity = quantity_name(first);
   published.statement = entry.statement;
+  const Naming naming = naming_of(entry);
   std::vector<std::string> satisfied_texts, missed_texts;
   for (const Condition &condition : entry.conditions) {
     const Reading left = cells.read(condition.left);
@@ -309,9 +342,9 @@ void settle_claim(Outcome &outcome, const Entry &entry, const Cells &cells) {
       published.computed = left.value;
     const std::string factor = condition.factor == 1 ? "" : reports::exact(condition.factor) + " * ";
     const std::string right_text =
-        right_operand ? described(*right_operand, *right.value) : reports::exact(right.value);
+        right_operand ? described(*right_operand, *right.value, naming) : reports::exact(right.value);
     (satisfied ? satisfied_texts : missed_texts)
-        .push_back(fmt::format("{} {} {}{}", described(condition.left, *left.value),
+        .push_back(fmt::format("{} {} {}{}", described(condition.left, *left.value, naming),
                                symbol(condition.relation, satisfied), factor, right_text));
   }
   if (entry.conditions.size() == 1 && std::holds_alternative<double>(entry.conditions.front().right)) {
@@ -329,8 +362,8 @@ std::vector<Published> settle(const std::vector<Entry> &entries, const std::vect
   std::vector<Published> settled;
   for (const Entry &entry : entries) {
     const Cells own(entry.benchmark, cells);
-    const std::vector<std::string> scenes = scenes_of(entry);
-    if (!std::all_of(scenes.begin(), scenes.end(), [&](const std::string &scene) { return own.has_scene(scene); }))
+    const std::vector<const Selector *> asked = selectors_of(entry);
+    if (!std::all_of(asked.begin(), asked.end(), [&](const Selector *cell) { return own.has_scene(cell->scene); }))
       continue;
     Outcome outcome;
     outcome.published.source = entry.source;

@@ -54,18 +54,27 @@ std::vector<std::size_t> natural_widths(const Table &table) {
   return widths;
 }
 
+/// A column of prose must hold its longest word, or the line would be pushed out of its columns.
+std::size_t narrowest_width(const Table &table, std::size_t j) {
+  std::size_t width = narrowest_prose;
+  for (const auto &row : table.rows())
+    for (const std::string &word : wrap(joined(row[j]), 1))
+      width = std::max(width, display_width(word));
+  return width;
+}
+
 /// Narrows the columns of prose, the widest first, until the table fits.
 std::vector<std::size_t> fitted_widths(const Table &table, std::size_t limit) {
   std::vector<std::size_t> widths = natural_widths(table);
-  const auto total = [&] {
-    return std::accumulate(widths.begin(), widths.end(),
-                           gap * (widths.size() - std::min<std::size_t>(1, widths.size())));
-  };
-  while (total() > limit) {
+  std::vector<std::size_t> narrowest = widths;
+  for (std::size_t j = 0; j < widths.size(); ++j)
+    if (table.columns()[j].prose)
+      narrowest[j] = std::min(widths[j], narrowest_width(table, j));
+  const std::size_t gaps = gap * (widths.size() - std::min<std::size_t>(1, widths.size()));
+  while (std::accumulate(widths.begin(), widths.end(), gaps) > limit) {
     std::size_t widest = widths.size();
     for (std::size_t j = 0; j < widths.size(); ++j)
-      if (table.columns()[j].prose && widths[j] > narrowest_prose &&
-          (widest == widths.size() || widths[j] > widths[widest]))
+      if (widths[j] > narrowest[j] && (widest == widths.size() || widths[j] > widths[widest]))
         widest = j;
     if (widest == widths.size())
       break;

@@ -269,6 +269,7 @@ TEST(Settle, ARelativeChangeHasTheSignOfTheDifference) {
   // log E falls from -2 by 0.4 %.
   const Published line = settled(entry, {cell("weak1", "16x4", -2.0), cell("weak1", "31x7", -2.008)});
   EXPECT_NEAR(line.computed.value(), -0.004, 1e-15);
+  EXPECT_EQ(line.quantity, "relative change of error");
   EXPECT_EQ(line.verdict, Verdict::reproduced);
 }
 
@@ -326,16 +327,34 @@ TEST(Settle, AllConditionsMustHold) {
   EXPECT_EQ(verdict(1, 1).verdict, Verdict::holds);
   EXPECT_EQ(verdict(11, 1).verdict, Verdict::does_not_hold);
   EXPECT_EQ(verdict(1, 11).verdict, Verdict::does_not_hold);
-  EXPECT_EQ(verdict(1, 11).finding, "strong, 16x4 = 11 not < 10; weak1, 16x4 = 1 < 10; weak2, 16x4 = 1 < 10");
+  EXPECT_EQ(verdict(1, 11).finding, "strong = 11 not < 10; weak1 = 1 < 10; weak2 = 1 < 10");
+}
+
+TEST(Settle, FindingsNameWhatDiffers) {
+  const auto finding = [](const Operand &left, const Operand &right) {
+    Cell other = cell("weak1", "16x4", 4.0);
+    other.scene = "order";
+    return settled(claim({condition(left, Relation::less, right)}),
+                   {cell("weak1", "16x4", 1.0), cell("weak1", "31x7", 0.25), cell("strong", "16x4", 2.0), other})
+        .finding;
+  };
+  Operand other_scene = operand("weak1");
+  other_scene.cell.scene = "order";
+  Operand change = operand("weak1", "31x7");
+  change.change = Change::rate;
+  change.from = operand("weak1").cell;
+  EXPECT_EQ(finding(operand("weak1"), operand("strong")), "weak1 = 1 < strong = 2");
+  EXPECT_EQ(finding(operand("weak1", "31x7"), operand("weak1")), "weak1, 31x7 = 0.25 < weak1, 16x4 = 1");
+  EXPECT_EQ(finding(operand("weak1"), other_scene), "weak1 of scene = 1 < weak1 of order = 4");
+  EXPECT_EQ(finding(operand("weak1"), change), "weak1, 16x4 = 1 < weak1, 31x7 (rate from 16x4) = 2.00");
 }
 
 TEST(Settle, ManyConditionsAreSummed) {
   std::vector<Condition> many(8, condition(operand("weak1"), Relation::less, 10.0));
   EXPECT_EQ(settled(claim(many), {cell("weak1", "16x4", 1)}).finding,
-            "all 8 comparisons hold, the first: weak1, 16x4 = 1 < 10");
+            "all 8 comparisons hold, the first: weak1 = 1 < 10");
   many[5].right = 0.5;
-  EXPECT_EQ(settled(claim(many), {cell("weak1", "16x4", 1)}).finding,
-            "1 of 8 comparisons fail: weak1, 16x4 = 1 not < 0.5");
+  EXPECT_EQ(settled(claim(many), {cell("weak1", "16x4", 1)}).finding, "1 of 8 comparisons fail: weak1 = 1 not < 0.5");
 }
 
 TEST(Settle, TheToleranceItselfIsWithin) {

@@ -44,6 +44,15 @@ TEST(Table, ProseIsBrokenToTheWidth) {
                                           "                  terminal is wide\n");
 }
 
+TEST(Table, ALongWordKeepsItsColumn) {
+  Table table({{"remark", Align::left, true}, {"n"}});
+  table.add_row({"a_word_longer_than_the_width and more", "1"});
+  EXPECT_EQ(render_text({table}, 20), "remark                        n\n"
+                                      "----------------------------  -\n"
+                                      "a_word_longer_than_the_width  1\n"
+                                      "and more\n");
+}
+
 TEST(Table, MarkdownEscapesWhatItWouldRead) {
   Table table({{"a|b", Align::left}, {"n"}});
   table.add_row({"x_y *z* <b> `c`", "_1_"});
