@@ -12,7 +12,7 @@ namespace comparisons::reports {
 namespace {
 
 constexpr std::size_t gap = 2;
-constexpr std::size_t narrowest_prose = 16;
+constexpr std::size_t narrowest_prose = 12;
 
 template <typename... Cases>
 struct Overloaded : Cases... {
