@@ -22,15 +22,13 @@ protected:
   using Points = std::vector<Point<n_dimensions>>;
   using Found = std::vector<Index>;
 
-  static Point<n_dimensions> filled(double value)
-  {
+  static Point<n_dimensions> filled(double value) {
     Point<n_dimensions> x;
     x.fill(value);
     return x;
   }
 
-  static Found brute_force(const Points &points, const Point<n_dimensions> &centre, double radius)
-  {
+  static Found brute_force(const Points &points, const Point<n_dimensions> &centre, double radius) {
     Found found;
     for (std::size_t j = 0; j < points.size(); ++j)
       if (distance_squared<n_dimensions>(points[j], centre) < radius * radius)
@@ -39,8 +37,7 @@ protected:
   }
 
   template <typename Search>
-  static Found sorted(const Search &search, const Point<n_dimensions> &centre, double radius)
-  {
+  static Found sorted(const Search &search, const Point<n_dimensions> &centre, double radius) {
     Found found;
     search.append_within(centre, radius, found);
     std::sort(found.begin(), found.end());
@@ -48,8 +45,7 @@ protected:
   }
 
   /// Cell list and tree find what all pairs give, around particles and around points anywhere.
-  static void expect_same(const Points &points, double radius, const Points &others)
-  {
+  static void expect_same(const Points &points, double radius, const Points &others) {
     const CellList<n_dimensions> fine(points, radius / 2);
     const CellList<n_dimensions> coarse(points, 3 * radius);
     const PointTree<n_dimensions> tree(points);
@@ -73,8 +69,7 @@ protected:
   }
 
   /// Inside, around and far away from the unit box.
-  static Points probes()
-  {
+  static Points probes() {
     auto points = random_points<n_dimensions>(50, filled(-.5), filled(1.5), 7);
     for (const double far : {-1e12, -10., 10., 1e12})
       points.push_back(filled(far));
@@ -87,15 +82,13 @@ using Dim = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
 TYPED_TEST_SUITE(NeighbourSearch, Dimensions);
 
-TYPED_TEST(NeighbourSearch, equals_all_pairs_on_random_clouds)
-{
+TYPED_TEST(NeighbourSearch, equals_all_pairs_on_random_clouds) {
   for (const double radius : {.02, .17, .6, 4.})
     this->expect_same(random_points<TypeParam::value>(250, this->filled(0), this->filled(1), 1), radius,
                       this->probes());
 }
 
-TYPED_TEST(NeighbourSearch, equals_all_pairs_with_particles_almost_at_one_place)
-{
+TYPED_TEST(NeighbourSearch, equals_all_pairs_with_particles_almost_at_one_place) {
   auto points = random_points<TypeParam::value>(100, this->filled(0), this->filled(1), 2);
   for (std::size_t i = 0; i < 50; ++i) {
     points.push_back(points[i]);
@@ -105,8 +98,7 @@ TYPED_TEST(NeighbourSearch, equals_all_pairs_with_particles_almost_at_one_place)
   this->expect_same(points, 1e-14, this->probes());
 }
 
-TYPED_TEST(NeighbourSearch, equals_all_pairs_where_the_box_is_nearly_empty)
-{
+TYPED_TEST(NeighbourSearch, equals_all_pairs_where_the_box_is_nearly_empty) {
   // Two clusters 1e6 apart: cells of the search radius would number 1e8 a direction.
   auto points = random_points<TypeParam::value>(60, this->filled(0), this->filled(1), 3);
   for (const auto &x : random_points<TypeParam::value>(60, this->filled(0), this->filled(1), 4)) {
@@ -118,14 +110,12 @@ TYPED_TEST(NeighbourSearch, equals_all_pairs_where_the_box_is_nearly_empty)
   this->expect_same(points, .5, this->probes());
 }
 
-TYPED_TEST(NeighbourSearch, equals_all_pairs_far_from_the_origin)
-{
+TYPED_TEST(NeighbourSearch, equals_all_pairs_far_from_the_origin) {
   auto points = random_points<TypeParam::value>(200, this->filled(1e6), this->filled(1e6 + 1), 5);
   this->expect_same(points, .2, random_points<TypeParam::value>(50, this->filled(1e6 - 1), this->filled(1e6 + 2), 6));
 }
 
-TYPED_TEST(NeighbourSearch, particles_at_exactly_the_radius_are_outside)
-{
+TYPED_TEST(NeighbourSearch, particles_at_exactly_the_radius_are_outside) {
   // Integer positions: distances and the radius 2 are exact in floating point.
   std::array<int, TypeParam::value> n;
   n.fill(6);
@@ -136,8 +126,7 @@ TYPED_TEST(NeighbourSearch, particles_at_exactly_the_radius_are_outside)
   EXPECT_EQ(found.size(), 1u);
 }
 
-TYPED_TEST(NeighbourSearch, one_particle_and_particles_on_a_line)
-{
+TYPED_TEST(NeighbourSearch, one_particle_and_particles_on_a_line) {
   this->expect_same({this->filled(.3)}, .5, this->probes());
   auto points = random_points<TypeParam::value>(80, this->filled(0), this->filled(1), 8);
   for (auto &x : points)
@@ -146,8 +135,7 @@ TYPED_TEST(NeighbourSearch, one_particle_and_particles_on_a_line)
   this->expect_same(points, .1, this->probes());
 }
 
-TYPED_TEST(NeighbourSearch, nearest_are_sorted_and_equal_all_pairs)
-{
+TYPED_TEST(NeighbourSearch, nearest_are_sorted_and_equal_all_pairs) {
   const auto points = random_points<TypeParam::value>(150, this->filled(0), this->filled(1), 9);
   const PointTree<TypeParam::value> tree(points);
   for (const auto &centre : this->probes()) {
@@ -170,8 +158,7 @@ TYPED_TEST(NeighbourSearch, nearest_are_sorted_and_equal_all_pairs)
   }
 }
 
-TYPED_TEST(NeighbourSearch, candidates_are_the_particles_whose_support_reaches_the_ball)
-{
+TYPED_TEST(NeighbourSearch, candidates_are_the_particles_whose_support_reaches_the_ball) {
   constexpr int dim = TypeParam::value;
   const auto points = random_points<dim>(300, this->filled(0), this->filled(1), 10);
   sample_clouds::Uniform random(11);
@@ -199,8 +186,7 @@ TYPED_TEST(NeighbourSearch, candidates_are_the_particles_whose_support_reaches_t
   }
 }
 
-TEST(CellList, refuses_what_cannot_be_searched)
-{
+TEST(CellList, refuses_what_cannot_be_searched) {
   const std::vector<Point<2>> none;
   const std::vector<Point<2>> one{{0, 0}};
   EXPECT_THROW(CellList<2>(none, 1), std::invalid_argument);
@@ -208,8 +194,7 @@ TEST(CellList, refuses_what_cannot_be_searched)
     EXPECT_THROW(CellList<2>(one, size), std::invalid_argument);
 }
 
-TEST(NeighbourLists, check_their_invariant)
-{
+TEST(NeighbourLists, check_their_invariant) {
   const NeighbourLists lists({0, 2, 2, 3}, {4, 5, 6});
   EXPECT_EQ(lists.n_rows(), 3u);
   EXPECT_EQ(lists[0].size(), 2u);

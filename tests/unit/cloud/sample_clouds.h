@@ -25,8 +25,8 @@ private:
 };
 
 template <int dim>
-std::vector<Point<dim>> random_points(std::size_t n, const Point<dim> &low, const Point<dim> &high, std::uint64_t seed)
-{
+std::vector<Point<dim>> random_points(std::size_t n, const Point<dim> &low, const Point<dim> &high,
+                                      std::uint64_t seed) {
   Uniform random(seed);
   std::vector<Point<dim>> points(n);
   for (auto &x : points)
@@ -37,8 +37,7 @@ std::vector<Point<dim>> random_points(std::size_t n, const Point<dim> &low, cons
 
 /// n[0] x n[1] x ... particles on the box, its faces included; the first axis varies slowest.
 template <int dim>
-std::vector<Point<dim>> grid(const std::array<int, dim> &n, const Point<dim> &low, const Point<dim> &high)
-{
+std::vector<Point<dim>> grid(const std::array<int, dim> &n, const Point<dim> &low, const Point<dim> &high) {
   std::vector<Point<dim>> points(1, Point<dim>{});
   for (int k = 0; k < dim; ++k) {
     std::vector<Point<dim>> longer;
@@ -56,8 +55,7 @@ std::vector<Point<dim>> grid(const std::array<int, dim> &n, const Point<dim> &lo
 /// of a face stay on it, those of a corner where they are.
 template <int dim>
 std::vector<Point<dim>> jittered_grid(const std::array<int, dim> &n, const Point<dim> &low, const Point<dim> &high,
-                                      double fraction, std::uint64_t seed)
-{
+                                      double fraction, std::uint64_t seed) {
   Uniform random(seed);
   auto points = grid<dim>(n, low, high);
   for (auto &x : points)
@@ -69,24 +67,22 @@ std::vector<Point<dim>> jittered_grid(const std::array<int, dim> &n, const Point
   return points;
 }
 
-/// A grid of the unit box whose spacing grows about fourfold from one end to the other: x -> x (2 + 3 x) / 5.
+/// A grid of the unit box whose spacing doubles from one end to the other: x -> x (2 + x) / 3.
 template <int dim>
-std::vector<Point<dim>> graded_grid(const std::array<int, dim> &n)
-{
+std::vector<Point<dim>> graded_grid(const std::array<int, dim> &n) {
   Point<dim> low{};
   Point<dim> high;
   high.fill(1);
   auto points = grid<dim>(n, low, high);
   for (auto &x : points)
     for (int k = 0; k < dim; ++k)
-      x[k] = x[k] * (2 + 3 * x[k]) / 5;
+      x[k] = x[k] * (2 + x[k]) / 3;
   return points;
 }
 
 /// A cloud with h = factor times the mean distance of the four nearest (two in one dimension).
 template <int dim>
-meshless::cloud::Particles<dim> with_mean_lengths(std::vector<Point<dim>> points, double factor = 1)
-{
+meshless::cloud::Particles<dim> with_mean_lengths(std::vector<Point<dim>> points, double factor = 1) {
   auto h = meshless::cloud::smoothing_lengths_by_mean<dim>(points, dim == 1 ? 2 : 4, factor);
   return {std::move(points), std::move(h)};
 }

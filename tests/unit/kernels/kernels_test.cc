@@ -19,8 +19,7 @@ const double root_pi = std::sqrt(std::numbers::pi);
 
 /// Integral of W over its support in 1, 2 or 3 dimensions, in units of h^dim.
 template <typename K>
-double integral(const K &kernel, int dim)
-{
+double integral(const K &kernel, int dim) {
   const auto gauss = meshless::linear_algebra::gauss_legendre(40);
   const double surface[] = {2, 2 * std::numbers::pi, 4 * std::numbers::pi};
   double sum = 0;
@@ -32,8 +31,7 @@ double integral(const K &kernel, int dim)
 }
 
 /// Integral of s^k e^(-a s^2) from 0 to rho, k even, by parts.
-double half_moment(int k, double a, double rho)
-{
+double half_moment(int k, double a, double rho) {
   if (k == 0)
     return .5 * root_pi / std::sqrt(a) * std::erf(std::sqrt(a) * rho);
   return ((k - 1) * half_moment(k - 2, a, rho) - std::pow(rho, k - 1) * std::exp(-a * rho * rho)) / (2 * a);
@@ -43,8 +41,7 @@ double half_moment(int k, double a, double rho)
 // terms of one sign: 1e-14 relative.
 constexpr double quadrature_rounding = 1e-14;
 
-TEST(Gauss, integral_has_its_closed_form)
-{
+TEST(Gauss, integral_has_its_closed_form) {
   for (const double rho : {1., 2., 3., 4., 6.}) {
     const Gauss kernel(rho);
     const double edge = std::exp(-rho * rho);
@@ -59,23 +56,21 @@ TEST(Gauss, integral_has_its_closed_form)
     EXPECT_NEAR(integral(Gauss(6), dim), std::pow(root_pi, dim), 1e-12);
 }
 
-TEST(RevisedSuperGauss, integral_has_its_closed_form)
-{
+TEST(RevisedSuperGauss, integral_has_its_closed_form) {
   for (const double rho : {1., 2., 3.})
     for (const double a : {1., 1.6, 2.5}) {
       const RevisedSuperGauss kernel(rho, a);
       const double area = rho * rho;
-      const double expected[] = {
-          2 * (area * half_moment(0, a, rho) - half_moment(2, a, rho)),
-          std::numbers::pi * (area / a - (1 - std::exp(-a * area)) / (a * a)),
-          4 * std::numbers::pi * (area * half_moment(2, a, rho) - half_moment(4, a, rho))};
+      const double expected[] = {2 * (area * half_moment(0, a, rho) - half_moment(2, a, rho)),
+                                 std::numbers::pi * (area / a - (1 - std::exp(-a * area)) / (a * a)),
+                                 4 * std::numbers::pi * (area * half_moment(2, a, rho) - half_moment(4, a, rho))};
       for (int dim = 1; dim <= 3; ++dim)
-        EXPECT_NEAR(integral(kernel, dim), expected[dim - 1], quadrature_rounding * 40) << dim << " " << rho << " " << a;
+        EXPECT_NEAR(integral(kernel, dim), expected[dim - 1], quadrature_rounding * 40)
+            << dim << " " << rho << " " << a;
     }
 }
 
-TEST(RevisedSuperGauss, normalisation_of_the_paper)
-{
+TEST(RevisedSuperGauss, normalisation_of_the_paper) {
   // Zhang & Batra 2008, below (6.10): G = 2/7 in one dimension for rho = 2, a = 1. That drops the
   // terms in erfc(2) and e^-4, as the exact 1/G = 7/2 erf(2) + 2 e^-4 / sqrt(pi) shows: .12 %.
   EXPECT_NEAR(root_pi / integral(RevisedSuperGauss(2, 1), 1), 2. / 7, .0015 * 2 / 7);
@@ -84,12 +79,10 @@ TEST(RevisedSuperGauss, normalisation_of_the_paper)
 
 class AnyKernel : public testing::TestWithParam<Kernel> {
 protected:
-  double value(double s_squared) const
-  {
+  double value(double s_squared) const {
     return std::visit([=](const auto &k) { return k.value(s_squared); }, GetParam());
   }
-  double slope(double s_squared) const
-  {
+  double slope(double s_squared) const {
     return std::visit([=](const auto &k) { return k.slope(s_squared); }, GetParam());
   }
   double support() const { return support_of(GetParam()); }
@@ -98,8 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, AnyKernel,
                          testing::Values(Kernel(Gauss(1)), Kernel(Gauss(4)), Kernel(RevisedSuperGauss(2, 1.6)),
                                          Kernel(RevisedSuperGauss(3, 1))));
 
-TEST_P(AnyKernel, slope_is_the_derivative_of_the_value)
-{
+TEST_P(AnyKernel, slope_is_the_derivative_of_the_value) {
   // Taylor remainder W(s + e) - W(s) - e s slope(s^2) = e^2 W''/2 + O(e^3): order 2 in e.
   for (const double part : {.0, .21, .43, .9}) {
     const double s = part * support();
@@ -116,8 +108,7 @@ TEST_P(AnyKernel, slope_is_the_derivative_of_the_value)
   }
 }
 
-TEST_P(AnyKernel, falls_from_the_centre_to_zero_at_the_edge)
-{
+TEST_P(AnyKernel, falls_from_the_centre_to_zero_at_the_edge) {
   const double edge = support() * support();
   EXPECT_NEAR(value(edge), 0, 1e-16);
   double last = value(0);
@@ -130,8 +121,7 @@ TEST_P(AnyKernel, falls_from_the_centre_to_zero_at_the_edge)
   }
 }
 
-TEST_P(AnyKernel, packs_give_the_values_of_scalars)
-{
+TEST_P(AnyKernel, packs_give_the_values_of_scalars) {
   const double edge = support() * support();
   for (int i = 0; i <= 1000; ++i) {
     const double first = edge * i / 1000;
@@ -147,8 +137,7 @@ TEST_P(AnyKernel, packs_give_the_values_of_scalars)
   }
 }
 
-TEST(KernelTable, makes_what_it_lists)
-{
+TEST(KernelTable, makes_what_it_lists) {
   EXPECT_EQ(kernel_table().size(), std::variant_size_v<Kernel>);
   for (std::size_t i = 0; i < kernel_table().size(); ++i) {
     const auto &entry = kernel_table()[i];
@@ -164,16 +153,14 @@ TEST(KernelTable, makes_what_it_lists)
   }
 }
 
-TEST(KernelTable, lists_the_names_when_there_is_no_such_kernel)
-{
+TEST(KernelTable, lists_the_names_when_there_is_no_such_kernel) {
   const auto message = refusal::message_of<std::invalid_argument>([] { make_kernel("gaus", 2); });
   EXPECT_TRUE(refusal::mentions(message, {"'gaus'"}));
   for (const auto &entry : kernel_table())
     EXPECT_TRUE(refusal::mentions(message, {entry.name}));
 }
 
-TEST(KernelTable, refuses_what_is_not_positive)
-{
+TEST(KernelTable, refuses_what_is_not_positive) {
   for (const double bad : {0., -1., std::nan("")}) {
     for (const auto &entry : kernel_table())
       EXPECT_THROW(make_kernel(entry.name, bad), std::invalid_argument);

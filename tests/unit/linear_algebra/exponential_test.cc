@@ -13,8 +13,7 @@ namespace {
 using namespace meshless::linear_algebra;
 
 /// Largest relative error over the arguments.
-double largest_error(const std::vector<double> &arguments)
-{
+double largest_error(const std::vector<double> &arguments) {
   double largest = 0;
   for (std::size_t i = 0; i < arguments.size(); i += n_lanes) {
     const Pack x([&](auto lane) { return arguments[std::min(i + lane, arguments.size() - 1)]; });
@@ -27,8 +26,7 @@ double largest_error(const std::vector<double> &arguments)
   return largest;
 }
 
-TEST(Exponential, error_below_the_stated_bound)
-{
+TEST(Exponential, error_below_the_stated_bound) {
   std::vector<double> dense;
   for (int i = -200000; i <= 200000; ++i)
     dense.push_back(i * 3.5e-3 * (1 + 1e-9)); // all of [-700, 700]
@@ -39,8 +37,7 @@ TEST(Exponential, error_below_the_stated_bound)
   EXPECT_LT(largest_error(kernels), 4e-16);
 }
 
-TEST(Exponential, error_below_the_stated_bound_where_the_reduction_changes)
-{
+TEST(Exponential, error_below_the_stated_bound_where_the_reduction_changes) {
   // On both sides of x = (k + 1/2) ln 2, where |r| is largest.
   std::vector<double> arguments;
   for (int k = -1000; k < 1000; ++k)
@@ -49,16 +46,14 @@ TEST(Exponential, error_below_the_stated_bound_where_the_reduction_changes)
   EXPECT_LT(largest_error(arguments), 4e-16);
 }
 
-TEST(Exponential, special_arguments)
-{
+TEST(Exponential, special_arguments) {
   EXPECT_EQ(exponential(Pack(0.))[0], 1);
   EXPECT_EQ(exponential(Pack(-0.))[0], 1);
   EXPECT_EQ(exponential(Pack(5e-324))[0], 1);
   EXPECT_EQ(exponential(.3), std::exp(.3));
 }
 
-TEST(Pack, padding_holds_all_points)
-{
+TEST(Pack, padding_holds_all_points) {
   for (std::size_t n = 0; n < 40; ++n) {
     EXPECT_GE(padded(n), n);
     EXPECT_LT(padded(n), n + n_lanes);

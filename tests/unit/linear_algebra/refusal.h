@@ -11,8 +11,7 @@ namespace refusal {
 
 /// The message of the error that the call throws, or nothing if it throws none.
 template <typename Error, typename Call>
-std::string message_of(const Call &call)
-{
+std::string message_of(const Call &call) {
   try {
     call();
   } catch (const Error &error) {
@@ -21,8 +20,7 @@ std::string message_of(const Call &call)
   return "";
 }
 
-inline testing::AssertionResult mentions(std::string_view message, std::initializer_list<std::string_view> words)
-{
+inline testing::AssertionResult mentions(std::string_view message, std::initializer_list<std::string_view> words) {
   for (const auto word : words)
     if (message.find(word) == std::string_view::npos)
       return testing::AssertionFailure() << "'" << word << "' is missing in '" << message << "'";

@@ -18,8 +18,7 @@ using refusal::message_of;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-SparseRows rows_of(const Eigen::MatrixXd &dense)
-{
+SparseRows rows_of(const Eigen::MatrixXd &dense) {
   SparseRows rows(dense.cols());
   std::vector<std::int64_t> columns(static_cast<std::size_t>(dense.cols()));
   std::vector<double> values(columns.size());
@@ -34,8 +33,7 @@ SparseRows rows_of(const Eigen::MatrixXd &dense)
 }
 
 /// Unsymmetric, a fraction of the entries filled, row i multiplied by up to 10^decades.
-Eigen::MatrixXd random_matrix(int n, double fill, double decades, std::uint64_t seed)
-{
+Eigen::MatrixXd random_matrix(int n, double fill, double decades, std::uint64_t seed) {
   sample_clouds::Uniform random(seed);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
@@ -48,16 +46,14 @@ Eigen::MatrixXd random_matrix(int n, double fill, double decades, std::uint64_t 
   return matrix;
 }
 
-Eigen::VectorXd random_vector(int n, std::uint64_t seed)
-{
+Eigen::VectorXd random_vector(int n, std::uint64_t seed) {
   sample_clouds::Uniform random(seed);
   return Eigen::VectorXd::NullaryExpr(n, [&] { return random.between(-1, 1); });
 }
 
 std::span<const double> span_of(const Eigen::VectorXd &v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
-TEST(SparseRows, keep_entries_that_are_not_zero)
-{
+TEST(SparseRows, keep_entries_that_are_not_zero) {
   SparseRows rows(5);
   rows.reserve(10);
   const std::vector<std::int64_t> columns{0, 2, 4};
@@ -72,8 +68,7 @@ TEST(SparseRows, keep_entries_that_are_not_zero)
   EXPECT_TRUE(std::ranges::equal(rows.values(), std::vector<double>{1, -3, 2}));
 }
 
-TEST(SparseRows, multiply_as_a_dense_matrix)
-{
+TEST(SparseRows, multiply_as_a_dense_matrix) {
   const auto dense = random_matrix(50, .2, 3, 1);
   const auto x = random_vector(50, 2);
   Eigen::VectorXd y(50);
@@ -82,8 +77,7 @@ TEST(SparseRows, multiply_as_a_dense_matrix)
   EXPECT_LT((y - dense * x).cwiseAbs().maxCoeff(), 50 * epsilon * dense.cwiseAbs().rowwise().sum().maxCoeff());
 }
 
-TEST(SparseRows, equilibrate_to_a_largest_entry_of_one)
-{
+TEST(SparseRows, equilibrate_to_a_largest_entry_of_one) {
   const auto dense = random_matrix(40, .3, 12, 3);
   auto rows = rows_of(dense);
   const auto divisors = rows.equilibrate_rows();
@@ -96,8 +90,7 @@ TEST(SparseRows, equilibrate_to_a_largest_entry_of_one)
   }
 }
 
-TEST(SparseRows, name_a_row_that_is_zero_or_not_finite)
-{
+TEST(SparseRows, name_a_row_that_is_zero_or_not_finite) {
   const std::vector<std::int64_t> columns{0, 1};
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     SparseRows rows(2);
@@ -110,8 +103,7 @@ TEST(SparseRows, name_a_row_that_is_zero_or_not_finite)
   EXPECT_TRUE(mentions(message_of<std::runtime_error>([&] { rows.equilibrate_rows(); }), {"row 0", "zero"}));
 }
 
-TEST(SparseLu, agrees_with_dense_lu)
-{
+TEST(SparseLu, agrees_with_dense_lu) {
   for (const int n : {1, 2, 5, 20, 100, 301})
     for (const double fill : {.02, .2, 1.}) {
       const auto dense = random_matrix(n, fill, 2, static_cast<std::uint64_t>(n));
@@ -122,8 +114,8 @@ TEST(SparseLu, agrees_with_dense_lu)
       const auto result = solve_lu(rows, span_of(b));
       const Eigen::Map<const Eigen::VectorXd> x(result.solution.data(), n);
       // Both are backward stable: they differ by eps times the condition number, with a factor n.
-      const double condition = dense.inverse().cwiseAbs().rowwise().sum().maxCoeff() *
-                               dense.cwiseAbs().rowwise().sum().maxCoeff();
+      const double condition =
+          dense.inverse().cwiseAbs().rowwise().sum().maxCoeff() * dense.cwiseAbs().rowwise().sum().maxCoeff();
       EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), n * epsilon * condition * expected.cwiseAbs().maxCoeff())
           << n << " " << fill;
       EXPECT_LT(backward_error(rows, result.solution, span_of(b)), 4 * epsilon);
@@ -131,8 +123,7 @@ TEST(SparseLu, agrees_with_dense_lu)
     }
 }
 
-TEST(SparseLu, solves_rows_and_not_columns)
-{
+TEST(SparseLu, solves_rows_and_not_columns) {
   // A matrix far from its transpose: x1 = 1, x0 = 10 - 4 x1.
   SparseRows rows(2);
   rows.append_row(std::vector<std::int64_t>{0, 1}, std::vector<double>{1, 4});
@@ -141,8 +132,7 @@ TEST(SparseLu, solves_rows_and_not_columns)
   EXPECT_EQ(result.solution, (std::vector<double>{6, 1}));
 }
 
-TEST(SparseLu, refuses_singular_matrices)
-{
+TEST(SparseLu, refuses_singular_matrices) {
   SparseRows equal_rows(2);
   SparseRows empty_column(2);
   for (int i = 0; i < 2; ++i) {
@@ -154,8 +144,7 @@ TEST(SparseLu, refuses_singular_matrices)
     EXPECT_TRUE(mentions(message_of<SolveError>([&] { solve_lu(*matrix, b); }), {"singular"}));
 }
 
-TEST(SparseLu, refuses_a_matrix_that_is_not_square)
-{
+TEST(SparseLu, refuses_a_matrix_that_is_not_square) {
   SparseRows wide(3);
   SparseRows tall(1);
   for (int i = 0; i < 2; ++i) {
@@ -167,15 +156,13 @@ TEST(SparseLu, refuses_a_matrix_that_is_not_square)
   EXPECT_THROW(solve_lu(tall, b), SolveError);
 }
 
-TEST(SparseLu, refuses_what_is_not_finite)
-{
+TEST(SparseLu, refuses_what_is_not_finite) {
   SparseRows rows(1);
   rows.append_row(std::vector<std::int64_t>{0}, std::vector<double>{1});
   EXPECT_THROW(solve_lu(rows, std::vector<double>{std::nan("")}), SolveError);
 }
 
-TEST(BackwardError, is_relative_to_matrix_and_right_hand_side)
-{
+TEST(BackwardError, is_relative_to_matrix_and_right_hand_side) {
   SparseRows rows(2);
   rows.append_row(std::vector<std::int64_t>{0, 1}, std::vector<double>{3, -1});
   rows.append_row(std::vector<std::int64_t>{1}, std::vector<double>{2});
