@@ -32,7 +32,7 @@ Value placeholder(const Declaration &declaration) {
   if (std::isfinite(range.lower) && std::isfinite(range.upper))
     number = 0.5 * (range.lower + range.upper);
   else if (std::isfinite(range.lower))
-    number = std::max(1.0, range.lower + 1);
+    number = range.lower_open ? std::max(1.0, range.lower + 1) : range.lower;
   else if (std::isfinite(range.upper))
     number = std::min(1.0, range.upper - 1);
   switch (declaration.type) {

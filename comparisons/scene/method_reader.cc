@@ -172,14 +172,14 @@ void SceneReader::read_common_keys(const Node &node, MethodTable &method) {
 /// A method without levels of its own needs those of the study.
 void SceneReader::require_levels() {
   const Node *methods = table("method");
-  if (study_has_levels_ || methods == nullptr)
+  const Node *study = table("study");
+  if (study_has_levels_ || (study != nullptr && !study->is(Node::Kind::table)))
     return;
   const auto has_levels = [](const Node &n) { return n.find("levels") != nullptr; };
-  const bool all =
-      methods->is(Node::Kind::array) && !methods->items.empty() && std::ranges::all_of(methods->items, has_levels);
+  const bool all = methods != nullptr && methods->is(Node::Kind::array) && !methods->items.empty() &&
+                   std::ranges::all_of(methods->items, has_levels);
   if (all)
     return;
-  const Node *study = table("study");
   diagnostics_.error(study != nullptr ? study->location : here(), "study.levels",
                      "the required key 'levels' is missing; a level is " + allowed_levels(level_form()),
                      level_form().counts_per_level == 1 ? "write in [study], for example, levels = [188]"

@@ -105,7 +105,7 @@ MethodDescription particles() {
           diagnostics.error(method.location("support"), context.method_key + ".support",
                             "the support is too small for the order");
         const auto &material = context.material;
-        if (material.real("nu") == open_bound && material.text("model") == "plane strain")
+        if (material.has("nu") && material.real("nu") == open_bound && material.text("model") == "plane strain")
           diagnostics.error(material.location("nu"), "material.nu", "nu = 0.5 in plane strain needs a mixed method");
       }};
 }
