@@ -99,7 +99,7 @@ void SceneReader::cross_check() {
   for (const auto &variant : scene_.problems)
     for (const auto &level : usable(levels))
       runner.run(
-          benchmark_->check, {material, variant.parameters, no_method, level, {}},
+          benchmark_->check, {material, variant.parameters, no_method, level, {}, scene_.effects},
           [&] {
             auto trusts = common;
             trusts.push_back({"study", !levels.empty()});
@@ -119,7 +119,7 @@ void SceneReader::cross_check() {
     trusts.push_back({"study", has_levels});
     for (const auto &variant : scene_.problems)
       for (const auto &level : usable(request.levels))
-        runner.run(owner.description->check, {material, variant.parameters, request.parameters, level, owner.key},
+        runner.run(owner.description->check, {material, variant.parameters, request.parameters, level, owner.key, scene_.effects},
                    trusts, request.location, owner.description->name);
   }
 }

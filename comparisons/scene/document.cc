@@ -1,9 +1,10 @@
 #include "comparisons/scene/document.h"
 
+#include "comparisons/scene/syntax_scan.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -22,8 +23,6 @@ namespace comparisons::scene {
 
 namespace {
 
-/// Keys of a scene have at most three parts; deeper ones would only deepen recursions.
-constexpr int deepest_key = 8;
 /// Values in one file. A scene at the limit of 100 000 cells needs fewer.
 constexpr std::size_t most_values = 400000;
 
@@ -38,48 +37,6 @@ Location place(std::string_view text, std::size_t position, const std::string &f
     }
   }
   return location;
-}
-
-/// End of the string that begins at `begin` (any of the four kinds), or the end of the text.
-std::size_t skip_string(std::string_view text, std::size_t begin) {
-  const char quote = text[begin];
-  const std::string three(3, quote);
-  const bool multi_line = text.substr(begin, 3) == three;
-  std::size_t i = begin + (multi_line ? 3 : 1);
-  while (i < text.size()) {
-    if (quote == '"' && text[i] == '\\')
-      i += 2;
-    else if (multi_line && text.substr(i, 3) == three)
-      return i + 3;
-    else if (!multi_line && (text[i] == quote || text[i] == '\n'))
-      return i + 1;
-    else
-      ++i;
-  }
-  return text.size();
-}
-
-/// Position of the first key with too many dots. Such a key is found before the parse, since the
-/// parser's tables are as deep as the key and are freed by recursion.
-std::optional<std::size_t> find_deep_key(std::string_view text) {
-  int dots = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    if (c == '"' || c == '\'') {
-      i = skip_string(text, i);
-      continue;
-    }
-    if (c == '#')
-      i = std::min(text.find('\n', i), text.size() - 1);
-    if (c == '.' && ++dots > deepest_key)
-      return i;
-    const bool in_key =
-        std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == ' ' || c == '\t' || c == '.';
-    if (!in_key)
-      dots = 0;
-    ++i;
-  }
-  return std::nullopt;
 }
 
 /// Converts the parser's tree, up to `most_values` values.
@@ -219,8 +176,8 @@ std::optional<Node> parse_document(std::string_view text, const std::string &fil
                       "save the file as UTF-8 text");
     return std::nullopt;
   }
-  if (const auto deep = find_deep_key(text)) {
-    diagnostics.error(place(text, *deep, file), {}, fmt::format("a key of more than {} parts", deepest_key));
+  if (const auto finding = scan_syntax(text)) {
+    diagnostics.error(place(text, finding->position, file), {}, finding->message, finding->suggestion);
     return std::nullopt;
   }
   const auto result = toml::parse(text, file);
@@ -242,7 +199,7 @@ std::optional<Node> parse_document(std::string_view text, const std::string &fil
 
 std::optional<Node> parse_value(std::string_view text, const Location &location) {
   const std::string line = fmt::format("value = {}", text);
-  if (find_deep_key(line))
+  if (scan_syntax(line))
     return std::nullopt;
   const auto result = toml::parse(std::string_view(line), std::string_view{});
   if (!result || result.table().size() != 1)

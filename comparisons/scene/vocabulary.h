@@ -5,6 +5,7 @@
 #include "comparisons/scene/scene.h"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct CheckContext {
   const Level &level;
   /// Key prefix for diagnostics about the method, e.g. "method[2]".
   std::string method_key;
+  /// Effects that the scene calls for.
+  std::span<const std::string> effects = {};
 };
 
 using Check = std::function<void(const CheckContext &, Diagnostics &)>;

@@ -114,6 +114,24 @@ TEST(SceneSyntax, BytesThatAreNoText) {
   EXPECT_EQ(findings("# \xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80\nx"), findings("# \nx"));
 }
 
+// Two places where the parser's own test for white space is undefined for such characters.
+TEST(SceneSyntax, CharactersBeyondAsciiStandInQuotes) {
+  EXPECT_EQ(findings("schema = 1\nl\xC3\xA4nge = 1\n"),
+            "beam.toml:2:2: error: wrong TOML syntax: a character beyond ASCII outside quotes and comments (names and "
+            "texts with such characters are written in quotes)\n");
+  EXPECT_NE(findings("title = \"\"\"a\\\n  \xC3\xA9\"\"\"\n").find(":2:3: error: a character beyond ASCII"),
+            std::string::npos);
+  EXPECT_TRUE(read(with("\"A beam\"", "\"Tr\xC3\xA4ger \xE2\x82\xAC\" # \xC3\xA9")).scene.has_value());
+  EXPECT_TRUE(read(with("\"A beam\"", "'''Tr\xC3\xA4ger'''")).scene.has_value());
+  EXPECT_TRUE(read(with("\"A beam\"", "\"\"\"a\\\n   b \xC3\xA9\"\"\"")).scene.has_value());
+  EXPECT_TRUE(read(valid_scene(), {"title=Tr\xC3\xA4ger"}).scene.has_value());
+}
+
+TEST(SceneSyntax, WrongHeaders) {
+  for (const std::string text : {"[=]", "[\na]", "[.a]", "[#", "[a", "[", "[[", "[]", "[[a]", "[a.\nb]", "[a]]"})
+    EXPECT_NE(findings(text).find("error: wrong TOML syntax"), std::string::npos) << text;
+}
+
 TEST(SceneSyntax, AnEmptyFileMissesEverything) { EXPECT_EQ(read("").diagnostics.all().size(), 4U) << findings(""); }
 
 TEST(SceneSyntax, DeepNestingIsRefused) {
