@@ -119,8 +119,9 @@ void SceneReader::cross_check() {
     trusts.push_back({"study", has_levels});
     for (const auto &variant : scene_.problems)
       for (const auto &level : usable(request.levels))
-        runner.run(owner.description->check, {material, variant.parameters, request.parameters, level, owner.key, scene_.effects},
-                   trusts, request.location, owner.description->name);
+        runner.run(owner.description->check,
+                   {material, variant.parameters, request.parameters, level, owner.key, scene_.effects}, trusts,
+                   request.location, owner.description->name);
   }
 }
 

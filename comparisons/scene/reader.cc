@@ -50,6 +50,16 @@ Diagnostics in_order(const Diagnostics &diagnostics) {
   return sorted;
 }
 
+/// The vocabulary with the methods that the scene's benchmark has for itself, if it has.
+Vocabulary vocabulary_for(const Node &root, const Vocabulary &vocabulary) {
+  Vocabulary result = vocabulary;
+  if (const Entry *entry = root.find("benchmark"); entry != nullptr && entry->value.is(Node::Kind::text))
+    for (const auto &benchmark : vocabulary.benchmarks)
+      if (benchmark.name == entry->value.text && !benchmark.methods.empty())
+        result.methods = benchmark.methods;
+  return result;
+}
+
 } // namespace
 
 ReadResult read_scene_text(const std::string &text, const std::string &file, std::span<const std::string> overrides,
@@ -58,8 +68,9 @@ ReadResult read_scene_text(const std::string &text, const std::string &file, std
   std::optional<Scene> scene;
   const std::string name = printable(file);
   if (auto root = parse_document(text, name, diagnostics)) {
-    apply_overrides(*root, overrides, vocabulary, diagnostics);
-    scene = SceneReader(*root, name, vocabulary, diagnostics).read();
+    const Vocabulary own = vocabulary_for(*root, vocabulary);
+    apply_overrides(*root, overrides, own, diagnostics);
+    scene = SceneReader(*root, name, own, diagnostics).read();
   }
   if (scene)
     scene->hash = hash_of(text, overrides);
@@ -123,7 +134,7 @@ std::vector<Declaration> study_declarations() {
 std::vector<Declaration> output_declarations() {
   return {
       {.name = "directory", .type = Type::text, .default_value = "out", .meaning = "folder of the results"},
-      {.name = "formats", .type = Type::text, .meaning = "list of the reports' formats; default text, json, csv, md"},
+      {.name = "formats", .type = Type::text, .meaning = "list of the reports' formats; default text, json, csv and Markdown"},
   };
 }
 

@@ -41,6 +41,9 @@ std::optional<Scene> SceneReader::read() {
   read_top();
   read_problem_and_material();
   read_effects();
+  for (const auto &[name, location] : effects_)
+    scene_.effects.push_back(name);
+  std::ranges::sort(scene_.effects);
   read_study();
   read_output();
   read_methods();
@@ -56,9 +59,6 @@ std::optional<Scene> SceneReader::read() {
   scene_.material = single(material_);
   scene_.study = single(study_);
   scene_.output = single(output_);
-  for (const auto &[name, location] : effects_)
-    scene_.effects.push_back(name);
-  std::ranges::sort(scene_.effects);
   return std::move(scene_);
 }
 
@@ -247,7 +247,7 @@ void SceneReader::read_formats(const Node *output) {
   const auto names = names_of(vocabulary_.formats);
   const Entry *formats = output != nullptr ? output->find("formats") : nullptr;
   if (formats == nullptr) {
-    for (const auto *name : {"text", "json", "csv", "md"})
+    for (const auto *name : {"text", "json", "csv", "md", "markdown"})
       if (std::ranges::find(names, name) != names.end())
         scene_.formats.emplace_back(name);
     return;

@@ -48,6 +48,8 @@ struct BenchmarkDescription {
   std::vector<std::string> effects;
   /// Checks problem, material and level (the context's `method` is empty).
   Check check;
+  /// Methods of this benchmark alone; empty: those of the vocabulary.
+  std::vector<MethodDescription> methods = {};
   /// 1: levels are one count; 2: "16x4"; a spacing is allowed for both.
   int counts_per_level = 2;
 };

@@ -342,6 +342,12 @@ formats = ["vtk"]
       << to_text(result.diagnostics);
 }
 
+TEST(SceneBadScene, ChecksSeeTheEffects) {
+  const std::string text = with("length = \"8 m\"", "jitter = 0.5");
+  EXPECT_EQ(findings(text), "beam.toml:5:10: error: problem.jitter: 0.5 needs two effects\n");
+  EXPECT_EQ(findings(text, {"effects.inertia=true"}), "");
+}
+
 // A wrong level must not hide what a method's check says about other keys.
 TEST(SceneBadScene, ChecksRunDespiteOtherFindings) {
   std::string text = with("support = 4", "support = 1");

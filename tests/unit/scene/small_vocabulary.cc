@@ -56,6 +56,8 @@ BenchmarkDescription beam() {
               [](const CheckContext &context, Diagnostics &diagnostics) {
                 if (!context.level.counts.empty() && context.level.counts[0] > 1000)
                   diagnostics.error({}, "study.levels", "the level is finer than the beam allows");
+                if (context.problem.real("jitter") == 0.5 && context.effects.size() < 2)
+                  diagnostics.error(context.problem.location("jitter"), "problem.jitter", "0.5 needs two effects");
               },
           .counts_per_level = 2};
 }
