@@ -33,7 +33,7 @@ void append_header(Document &document, const Results &results, const std::vector
       fmt::format("threads: {}, BLAS: {}, SIMD lanes: {}", machine.threads, machine.blas, machine.simd_lanes));
   std::vector<std::string> libraries;
   for (const auto &[name, version] : machine.libraries)
-    libraries.push_back(name + " " + version);
+    libraries.push_back(fmt::format("{} {}", name, version));
   if (!libraries.empty())
     lines.push_back(fmt::format("libraries: {}", fmt::join(libraries, ", ")));
   if (!results.effects_active.empty())
