@@ -115,8 +115,10 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
   }
   quadrature.whole = false;
   std::sort(breaks.begin(), breaks.end());
-  // Break points of adjacent pieces coincide to rounding.
-  const double same = 4 * tolerance / radius;
+  // Break points of adjacent pieces coincide to the rounding of coordinates, and no more is merged:
+  // where a circle through a corner touches a piece there, two lie 1e-8 apart, and a wedge that
+  // began at the wrong one would be as much too wide.
+  const double same = 1e-15 * (10 + (std::abs(centre[0]) + std::abs(centre[1])) / radius);
   breaks.erase(std::unique(breaks.begin(), breaks.end(), [&](double a, double b) { return b - a <= same; }),
                breaks.end());
   if (breaks.size() > 1 && breaks.front() + full_turn - breaks.back() <= same)
