@@ -43,7 +43,7 @@ std::vector<Point<dim>> grid(const std::array<int, dim> &n, const Point<dim> &lo
     std::vector<Point<dim>> longer;
     for (auto x : points)
       for (int i = 0; i < n[k]; ++i) {
-        x[k] = low[k] + (high[k] - low[k]) * i / (n[k] - 1);
+        x[k] = i == n[k] - 1 ? high[k] : low[k] + (high[k] - low[k]) * i / (n[k] - 1);
         longer.push_back(x);
       }
     points = std::move(longer);
