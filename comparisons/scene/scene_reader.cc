@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace comparisons::scene {
 
@@ -87,8 +88,14 @@ std::vector<KeyHome> SceneReader::key_homes() const {
   }
   add(study_declarations(), "[study]");
   add(output_declarations(), "[output]");
+  std::map<std::string, std::string> methods; // the methods that have a key
   for (const auto &method : vocabulary_.methods)
-    add(method.parameters, "[[method]]");
+    for (const auto &declaration : method.parameters) {
+      std::string &names = methods[declaration.name];
+      names += (names.empty() ? "" : ", ") + method.name;
+    }
+  for (const auto &[key, names] : methods)
+    homes.push_back({key, "[[method]] with name = " + names});
   for (const auto &key : common_method_keys())
     homes.push_back({key, "[[method]]"});
   for (const auto &effect : vocabulary_.effects)
@@ -247,7 +254,7 @@ void SceneReader::read_formats(const Node *output) {
   const auto names = names_of(vocabulary_.formats);
   const Entry *formats = output != nullptr ? output->find("formats") : nullptr;
   if (formats == nullptr) {
-    for (const auto *name : {"text", "json", "csv", "md", "markdown"})
+    for (const auto *name : {"text", "json", "csv", "md"})
       if (std::ranges::find(names, name) != names.end())
         scene_.formats.emplace_back(name);
     return;

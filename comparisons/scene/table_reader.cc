@@ -177,6 +177,8 @@ ResolvedTable read_table(const Node *node, const TableRules &rules, std::span<co
 
 void unknown_key(const Entry &entry, const std::string &name, const std::string &title,
                  const std::vector<std::string> &allowed, std::span<const KeyHome> homes, Diagnostics &diagnostics) {
+  if (diagnostics.all().size() > Diagnostics::limit)
+    return; // a search for near misses would be in vain
   std::string suggestion;
   const auto home = std::ranges::find(homes, entry.key, &KeyHome::key);
   const std::string near = nearest_name(entry.key, allowed);

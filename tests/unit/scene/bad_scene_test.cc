@@ -40,6 +40,9 @@ std::vector<BadInput> bad_keys() {
       {"key_of_another_table", "support = 4", "nu = 4",
        ":15:1: error: method[0].nu: unknown key 'nu' in particles; allowed: " + method_keys +
            " ('nu' belongs to [material])"},
+      {"key_of_another_method", "element = \"Q1\"", "support = 4",
+       ":19:1: error: method[1].support: unknown key 'support' in fem; allowed: element, name, label, levels, expect "
+       "('support' belongs to [[method]] with name = particles)"},
       {"key_below_the_wrong_header", "nu = 0.3", "title = \"x\"",
        ":8:1: error: material.title: unknown key 'title' in [material]; allowed: E, nu, model "
        "('title' belongs to the top of the file, before the first table)"},
