@@ -35,8 +35,11 @@ add_compile_options(${PETROV_NATIVE_FLAGS})
 add_compile_options(-fno-math-errno)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
-# g++ 12 warns of its own AVX-512 intrinsics ("__Y may be used uninitialized") wherever Eigen is inlined.
-add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+# False alarms of g++ 12: its own AVX-512 intrinsics ("__Y may be used uninitialized") wherever Eigen is inlined, and
+# std::string and fmt at -O3 (restrict, stringop-overflow).
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(-Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
+endif()
 if(PETROV_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()

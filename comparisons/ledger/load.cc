@@ -1,8 +1,9 @@
 #include "comparisons/ledger/ledger.h"
 
+#include "comparisons/scene/toml.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -316,12 +317,13 @@ Entry read_claim(const toml::table &table, const std::string &source, Faults &fa
 }
 
 toml::table parse(const std::filesystem::path &path) {
-  try {
-    return toml::parse_file(path.string());
-  } catch (const toml::parse_error &failure) {
-    const auto &where = failure.source().begin;
-    throw PublishedError(fmt::format("{}:{}:{}: {}", path.string(), where.line, where.column, failure.description()));
+  auto result = toml::parse_file(path.string());
+  if (!result) {
+    const auto &where = result.error().source().begin;
+    throw PublishedError(
+        fmt::format("{}:{}:{}: {}", path.string(), where.line, where.column, result.error().description()));
   }
+  return std::move(result).table();
 }
 
 } // namespace

@@ -117,7 +117,7 @@ std::string text_report(const Results &results) { return render_text(report_docu
 std::string markdown_report(const Results &results) { return render_markdown(report_document(results)); }
 
 const std::vector<std::string> &report_formats() {
-  static const std::vector<std::string> formats{"text", "markdown", "csv", "json"};
+  static const std::vector<std::string> formats{"text", "md", "csv", "json"};
   return formats;
 }
 
@@ -137,7 +137,7 @@ std::vector<std::filesystem::path> write_reports(const Results &results, const s
   for (const std::string &format : formats) {
     if (format == "text")
       write(".txt", text_report(results));
-    else if (format == "markdown")
+    else if (format == "md")
       write(".md", markdown_report(results));
     else if (format == "json")
       write(".json", json_text(results));

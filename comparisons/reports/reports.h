@@ -24,7 +24,7 @@ std::string csv_report(const Results &results);
 /// The ledger as CSV, one row an entry.
 std::string csv_published(const Results &results);
 
-/// The formats that write_reports knows: text (stem.txt), markdown (stem.md), csv (stem.csv and, with published
+/// The formats that write_reports knows: text (stem.txt), md (stem.md), csv (stem.csv and, with published
 /// numbers, stem_published.csv), json (stem.json).
 const std::vector<std::string> &report_formats();
 

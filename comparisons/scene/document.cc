@@ -1,6 +1,7 @@
 #include "comparisons/scene/document.h"
 
 #include "comparisons/scene/syntax_scan.h"
+#include "comparisons/scene/toml.h"
 
 #include <fmt/format.h>
 
@@ -8,16 +9,6 @@
 #include <cmath>
 #include <tuple>
 #include <utility>
-
-// The only file of this folder that includes the parser: it is slow to compile.
-#define TOML_EXCEPTIONS 0
-// toml++ 3.3 asserts that a table's header begins like a key before it reports "[=]" and its like as
-// wrong syntax. A user's slip must not end a Debug build, so the assertions are off.
-#define TOML_ASSERT(expression) static_assert(true)
-#ifndef TOML_HEADER_ONLY
-#define TOML_HEADER_ONLY 1
-#endif
-#include <toml++/toml.h>
 
 namespace comparisons::scene {
 

@@ -6,8 +6,7 @@ namespace meshless::cloud {
 
 template <int dim>
 CandidateSearch<dim>::CandidateSearch(const Particles<dim> &particles, double support)
-    : particles_(&particles), support_(support)
-{
+    : particles_(&particles), support_(support) {
   if (particles.uniform())
     cells_.emplace(particles.positions(), support * particles.largest_smoothing_length() / 2);
   else
@@ -15,8 +14,7 @@ CandidateSearch<dim>::CandidateSearch(const Particles<dim> &particles, double su
 }
 
 template <int dim>
-void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std::vector<Index> &result) const
-{
+void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
   result.clear();
   const double reach = support_ * particles_->largest_smoothing_length() + radius;
   if (cells_)

@@ -12,8 +12,7 @@ namespace {
 /// last axis at a time.
 template <int dim, typename F>
 void for_each_run(const std::array<std::ptrdiff_t, dim> &low, const std::array<std::ptrdiff_t, dim> &high,
-                  const std::array<std::ptrdiff_t, dim> &n_cells, const F &f)
-{
+                  const std::array<std::ptrdiff_t, dim> &n_cells, const F &f) {
   std::array<std::ptrdiff_t, dim> cell = low;
   while (true) {
     std::ptrdiff_t begin = 0;
@@ -35,8 +34,7 @@ void for_each_run(const std::array<std::ptrdiff_t, dim> &low, const std::array<s
 
 template <int dim>
 CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
-    : positions_(positions), cell_size_(cell_size)
-{
+    : positions_(positions), cell_size_(cell_size) {
   if (!(cell_size > 0) || positions.empty())
     throw std::invalid_argument("a cell list needs particles and a positive cell size");
   Point<dim> upper = positions[0];
@@ -84,8 +82,7 @@ CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
 }
 
 template <int dim>
-std::array<std::ptrdiff_t, dim> CellList<dim>::cell_of(const Point<dim> &point) const
-{
+std::array<std::ptrdiff_t, dim> CellList<dim>::cell_of(const Point<dim> &point) const {
   std::array<std::ptrdiff_t, dim> cell{};
   for (int k = 0; k < dim; ++k) {
     const double c = std::floor((point[k] - origin_[k]) / cell_size_);
@@ -95,8 +92,7 @@ std::array<std::ptrdiff_t, dim> CellList<dim>::cell_of(const Point<dim> &point) 
 }
 
 template <int dim>
-void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const
-{
+void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
   Point<dim> low = centre;
   Point<dim> high = centre;
   for (int k = 0; k < dim; ++k) {
@@ -113,8 +109,7 @@ void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::
 }
 
 template <int dim>
-NeighbourLists CellList<dim>::all_within(double radius) const
-{
+NeighbourLists CellList<dim>::all_within(double radius) const {
   std::vector<std::size_t> offsets(1, 0);
   offsets.reserve(positions_.size() + 1);
   std::vector<Index> indices;

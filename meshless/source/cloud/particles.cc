@@ -15,8 +15,7 @@ namespace meshless::cloud {
 namespace {
 
 template <int dim>
-void check_positions(std::span<const Point<dim>> positions)
-{
+void check_positions(std::span<const Point<dim>> positions) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     for (const double x : positions[i])
       if (!std::isfinite(x))
@@ -32,21 +31,20 @@ void check_positions(std::span<const Point<dim>> positions)
   });
   for (std::size_t k = 1; k < order.size(); ++k)
     if (positions[order[k]] == positions[order[k - 1]])
-      throw std::invalid_argument(fmt::format("particles {} and {} are at the same place ({})", order[k - 1],
-                                              order[k], fmt::join(positions[order[k]], ", ")));
+      throw std::invalid_argument(fmt::format("particles {} and {} are at the same place ({})", order[k - 1], order[k],
+                                              fmt::join(positions[order[k]], ", ")));
 }
 
 } // namespace
 
 template <int dim>
 Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths)
-    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths))
-{
+    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)) {
   if (positions_.empty())
     throw std::invalid_argument("a cloud needs at least one particle");
   if (positions_.size() != smoothing_lengths_.size())
-    throw std::invalid_argument(fmt::format("{} positions but {} smoothing lengths", positions_.size(),
-                                            smoothing_lengths_.size()));
+    throw std::invalid_argument(
+        fmt::format("{} positions but {} smoothing lengths", positions_.size(), smoothing_lengths_.size()));
   check_positions<dim>(positions_);
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size(); ++i) {
@@ -60,18 +58,17 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
 }
 
 template <int dim>
-std::vector<double> smoothing_lengths_by_nearest(std::span<const Point<dim>> positions, double factor)
-{
+std::vector<double> smoothing_lengths_by_nearest(std::span<const Point<dim>> positions, double factor) {
   return smoothing_lengths_by_mean<dim>(positions, 1, factor);
 }
 
 template <int dim>
-std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positions, int k, double factor)
-{
+std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positions, int k, double factor) {
   if (positions.size() < 2)
     throw std::invalid_argument("a smoothing length needs at least two particles");
   if (k < 1)
-    throw std::invalid_argument(fmt::format("a smoothing length from the {} nearest particles; at least 1 is needed", k));
+    throw std::invalid_argument(
+        fmt::format("a smoothing length from the {} nearest particles; at least 1 is needed", k));
   const PointTree<dim> tree(positions);
   std::vector<double> lengths(positions.size());
   std::vector<Index> indices;
@@ -86,9 +83,9 @@ std::vector<double> smoothing_lengths_by_mean(std::span<const Point<dim>> positi
   return lengths;
 }
 
-#define INSTANTIATE(dim)                                                                                     \
-  template class Particles<dim>;                                                                             \
-  template std::vector<double> smoothing_lengths_by_nearest<dim>(std::span<const Point<dim>>, double);       \
+#define INSTANTIATE(dim)                                                                                               \
+  template class Particles<dim>;                                                                                       \
+  template std::vector<double> smoothing_lengths_by_nearest<dim>(std::span<const Point<dim>>, double);                 \
   template std::vector<double> smoothing_lengths_by_mean<dim>(std::span<const Point<dim>>, int, double);
 INSTANTIATE(1)
 INSTANTIATE(2)

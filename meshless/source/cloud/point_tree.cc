@@ -16,8 +16,7 @@ struct PointSet {
   std::size_t kdtree_get_point_count() const { return positions.size(); }
   double kdtree_get_pt(std::size_t i, std::size_t k) const { return positions[i][k]; }
   template <class Box>
-  bool kdtree_get_bbox(Box &) const
-  {
+  bool kdtree_get_bbox(Box &) const {
     return false;
   }
 };
@@ -30,8 +29,7 @@ struct PointTree<dim>::Tree {
                                                       PointSet<dim>, dim, Index>;
 
   explicit Tree(std::span<const Point<dim>> positions)
-      : points{positions}, adaptor(dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(10))
-  {
+      : points{positions}, adaptor(dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(10)) {
     adaptor.buildIndex();
   }
 
@@ -40,9 +38,7 @@ struct PointTree<dim>::Tree {
 };
 
 template <int dim>
-PointTree<dim>::PointTree(std::span<const Point<dim>> positions) : tree_(std::make_unique<Tree>(positions))
-{
-}
+PointTree<dim>::PointTree(std::span<const Point<dim>> positions) : tree_(std::make_unique<Tree>(positions)) {}
 
 template <int dim>
 PointTree<dim>::~PointTree() = default;
@@ -52,8 +48,7 @@ template <int dim>
 PointTree<dim> &PointTree<dim>::operator=(PointTree &&) noexcept = default;
 
 template <int dim>
-void PointTree<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const
-{
+void PointTree<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
   // nanoflann's metric is the squared distance; its comparison is strict, as ours.
   std::vector<std::pair<Index, double>> found;
   tree_->adaptor.radiusSearch(centre.data(), radius * radius, found, nanoflann::SearchParams(32, 0, false));
@@ -63,8 +58,7 @@ void PointTree<dim>::append_within(const Point<dim> &centre, double radius, std:
 
 template <int dim>
 void PointTree<dim>::nearest(const Point<dim> &centre, int k, std::vector<Index> &indices,
-                             std::vector<double> &distances) const
-{
+                             std::vector<double> &distances) const {
   indices.resize(static_cast<std::size_t>(k));
   distances.resize(static_cast<std::size_t>(k));
   const auto n = tree_->adaptor.knnSearch(centre.data(), static_cast<std::size_t>(k), indices.data(), distances.data());

@@ -10,14 +10,12 @@ namespace meshless::domain {
 
 double BoundaryPiece::length() const { return std::hypot(end[0] - begin[0], end[1] - begin[1]); }
 
-Point2 BoundaryPiece::normal() const
-{
+Point2 BoundaryPiece::normal() const {
   const double l = length();
   return {(end[1] - begin[1]) / l, -(end[0] - begin[0]) / l};
 }
 
-Boundary::Boundary(std::vector<BoundaryPiece> pieces) : pieces_(std::move(pieces))
-{
+Boundary::Boundary(std::vector<BoundaryPiece> pieces) : pieces_(std::move(pieces)) {
   if (pieces_.size() < 3)
     throw std::invalid_argument(fmt::format("a boundary needs at least three straight pieces, not {}", pieces_.size()));
   Point2 low = pieces_[0].begin;
@@ -34,19 +32,18 @@ Boundary::Boundary(std::vector<BoundaryPiece> pieces) : pieces_(std::move(pieces
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const auto &end = pieces_[i].end;
     if (pieces_[i].length() <= tolerance_)
-      throw std::invalid_argument(fmt::format("boundary piece {} at ({:.6g}, {:.6g}) has no length", i, end[0], end[1]));
+      throw std::invalid_argument(
+          fmt::format("boundary piece {} at ({:.6g}, {:.6g}) has no length", i, end[0], end[1]));
     const bool continued = std::any_of(pieces_.begin(), pieces_.end(), [&](const auto &next) {
       return std::hypot(next.begin[0] - end[0], next.begin[1] - end[1]) <= tolerance_;
     });
     if (!continued)
-      throw std::invalid_argument(
-          fmt::format("the boundary is not closed: no piece begins where piece {} ends, at ({:.6g}, {:.6g})", i,
-                      end[0], end[1]));
+      throw std::invalid_argument(fmt::format(
+          "the boundary is not closed: no piece begins where piece {} ends, at ({:.6g}, {:.6g})", i, end[0], end[1]));
   }
 }
 
-bool Boundary::contains(const Point2 &point) const
-{
+bool Boundary::contains(const Point2 &point) const {
   // Winding number by signed crossings of the ray to the right.
   int winding = 0;
   for (const auto &piece : pieces_) {
@@ -61,8 +58,7 @@ bool Boundary::contains(const Point2 &point) const
   return winding != 0;
 }
 
-double Boundary::distance(const Point2 &point, std::size_t index) const
-{
+double Boundary::distance(const Point2 &point, std::size_t index) const {
   const auto &piece = pieces_[index];
   const double tx = piece.end[0] - piece.begin[0];
   const double ty = piece.end[1] - piece.begin[1];
@@ -72,8 +68,7 @@ double Boundary::distance(const Point2 &point, std::size_t index) const
   return std::hypot(dx - t * tx, dy - t * ty);
 }
 
-std::vector<std::size_t> Boundary::pieces_at(const Point2 &point) const
-{
+std::vector<std::size_t> Boundary::pieces_at(const Point2 &point) const {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < pieces_.size(); ++i)
     if (distance(point, i) <= tolerance_)
@@ -81,8 +76,7 @@ std::vector<std::size_t> Boundary::pieces_at(const Point2 &point) const
   return found;
 }
 
-Boundary rectangle(const Point2 &lower, const Point2 &upper)
-{
+Boundary rectangle(const Point2 &lower, const Point2 &upper) {
   const Point2 south_east{upper[0], lower[1]};
   const Point2 north_west{lower[0], upper[1]};
   return Boundary({{lower, south_east, 2}, {south_east, upper, 1}, {upper, north_west, 3}, {north_west, lower, 0}});

@@ -25,8 +25,7 @@ struct Chord {
   double nearest;
 };
 
-std::optional<Chord> chord(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance)
-{
+std::optional<Chord> chord(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance) {
   const Point2 along = minus(piece.end, piece.begin);
   const Point2 from = minus(piece.begin, centre);
   const double length = piece.length();
@@ -44,8 +43,7 @@ std::optional<Chord> chord(const BoundaryPiece &piece, const Point2 &centre, dou
 /// Distance along the ray from centre in `direction` to the line of the piece, or nothing if it
 /// does not meet the piece.
 std::optional<double> crossing(const BoundaryPiece &piece, const Point2 &centre, const Point2 &direction,
-                               double tolerance)
-{
+                               double tolerance) {
   const Point2 along = minus(piece.end, piece.begin);
   const Point2 from = minus(piece.begin, centre);
   const double denominator = cross(direction, along);
@@ -61,16 +59,14 @@ std::optional<double> crossing(const BoundaryPiece &piece, const Point2 &centre,
   return r;
 }
 
-double angle_of(const Point2 &v)
-{
+double angle_of(const Point2 &v) {
   const double angle = std::atan2(v[1], v[0]);
   return angle < 0 ? angle + full_turn : angle;
 }
 
 } // namespace
 
-void SubdomainQuadrature::clear()
-{
+void SubdomainQuadrature::clear() {
   for (int k = 0; k < 2; ++k) {
     point[k].clear();
     boundary_point[k].clear();
@@ -81,14 +77,12 @@ void SubdomainQuadrature::clear()
   whole = true;
 }
 
-SubdomainRule::SubdomainRule(const Boundary &boundary, int n_radial) : boundary_(&boundary), n_radial_(n_radial)
-{
+SubdomainRule::SubdomainRule(const Boundary &boundary, int n_radial) : boundary_(&boundary), n_radial_(n_radial) {
   if (n_radial < 1)
     throw std::invalid_argument("a subdomain needs at least one radial quadrature point");
 }
 
-void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const
-{
+void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const {
   quadrature.clear();
   const double tolerance = boundary_->tolerance();
   thread_local std::vector<std::size_t> near;
@@ -131,8 +125,7 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
     add_boundary(centre, radius, i, quadrature);
 }
 
-void SubdomainRule::add_whole_disc(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const
-{
+void SubdomainRule::add_whole_disc(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const {
   const auto &radial = linear_algebra::cached_gauss_legendre(n_radial_);
   const auto &angular = linear_algebra::cached_gauss_legendre(4 * n_radial_);
   for (std::size_t a = 0; a < angular.points.size(); ++a) {
@@ -149,8 +142,7 @@ void SubdomainRule::add_whole_disc(const Point2 &centre, double radius, Subdomai
 }
 
 void SubdomainRule::add_wedge(const Point2 &centre, double radius, double begin, double end,
-                              std::span<const std::size_t> pieces, SubdomainQuadrature &quadrature) const
-{
+                              std::span<const std::size_t> pieces, SubdomainQuadrature &quadrature) const {
   const double tolerance = boundary_->tolerance();
   // Crossings of a ray with the pieces, nearest first, closed by the centre and the circle.
   thread_local std::vector<double> radii;
@@ -199,8 +191,7 @@ void SubdomainRule::add_wedge(const Point2 &centre, double radius, double begin,
 }
 
 void SubdomainRule::add_boundary(const Point2 &centre, double radius, std::size_t piece,
-                                 SubdomainQuadrature &quadrature) const
-{
+                                 SubdomainQuadrature &quadrature) const {
   const auto &segment = boundary_->pieces()[piece];
   const auto inside = chord(segment, centre, radius, boundary_->tolerance());
   if (!inside)

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace meshless::elasticity {
 
 Material::Material(double youngs_modulus, double poisson_ratio, PlaneModel model)
-    : youngs_modulus_(youngs_modulus), poisson_ratio_(poisson_ratio), model_(model)
-{
-  if (!(youngs_modulus > 0))
-    throw std::invalid_argument(fmt::format("Young's modulus {} is not positive", youngs_modulus));
+    : youngs_modulus_(youngs_modulus), poisson_ratio_(poisson_ratio), model_(model) {
+  if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
+    throw std::invalid_argument(fmt::format("Young's modulus {} is not a positive number", youngs_modulus));
   const bool strain = model == PlaneModel::plane_strain;
   if (!(poisson_ratio > -1) || poisson_ratio > 0.5 || (strain && poisson_ratio >= 0.5))
     throw std::invalid_argument(fmt::format("Poisson's ratio {} is outside (-1, 0.5{} for {}", poisson_ratio,
@@ -28,8 +28,7 @@ Material::Material(double youngs_modulus, double poisson_ratio, PlaneModel model
   }
 }
 
-double Material::plane_modulus() const
-{
+double Material::plane_modulus() const {
   return model_ == PlaneModel::plane_stress ? youngs_modulus_
                                             : youngs_modulus_ / ((1 - poisson_ratio_) * (1 + poisson_ratio_));
 }

@@ -8,12 +8,9 @@ ParticleSolution::ParticleSolution(std::shared_ptr<const cloud::Particles<2>> pa
                                    std::shared_ptr<const basis::ShapeFunctions<2>> basis, DerivativeRule rule,
                                    Material material, std::vector<double> coefficients)
     : particles_(std::move(particles)), basis_(std::move(basis)), rule_(rule), material_(material),
-      coefficients_(std::move(coefficients)), search_(*particles_, basis_->support())
-{
-}
+      coefficients_(std::move(coefficients)), search_(*particles_, basis_->support()) {}
 
-void ParticleSolution::displacement(std::span<const Point2> points, std::span<Vector2> values) const
-{
+void ParticleSolution::displacement(std::span<const Point2> points, std::span<Vector2> values) const {
   const basis::GroupedEvaluation<2> evaluation(*basis_, search_);
   evaluation.visit(points, {.value = true}, [&](const auto &group) {
     for (const std::size_t i : group.points)
@@ -28,8 +25,7 @@ void ParticleSolution::displacement(std::span<const Point2> points, std::span<Ve
   });
 }
 
-void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2> values) const
-{
+void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2> values) const {
   const bool direct = rule_ == DerivativeRule::direct;
   const basis::Wanted wanted{.gradient = direct, .differentiated_gradient = !direct};
   const basis::GroupedEvaluation<2> evaluation(*basis_, search_);

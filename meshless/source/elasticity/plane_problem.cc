@@ -6,8 +6,7 @@
 
 namespace meshless::elasticity {
 
-void PlaneProblem::check() const
-{
+void PlaneProblem::check() const {
   std::array<bool, 2> fixed{};
   for (const auto &piece : boundary.pieces()) {
     const auto found = conditions.find(piece.id);

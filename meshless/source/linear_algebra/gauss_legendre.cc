@@ -7,8 +7,7 @@
 
 namespace meshless::linear_algebra {
 
-GaussRule gauss_legendre(int n)
-{
+GaussRule gauss_legendre(int n) {
   if (n < 1)
     throw std::invalid_argument("a Gauss rule needs at least one point");
   GaussRule rule;
@@ -39,8 +38,7 @@ GaussRule gauss_legendre(int n)
   return rule;
 }
 
-const GaussRule &cached_gauss_legendre(int n)
-{
+const GaussRule &cached_gauss_legendre(int n) {
   thread_local std::map<int, GaussRule> rules; // a map: references stay valid as it grows
   GaussRule &rule = rules[n];
   if (rule.points.empty())

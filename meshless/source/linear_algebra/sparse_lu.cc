@@ -18,15 +18,13 @@ struct Handles {
   Handles() = default;
   Handles(const Handles &) = delete;
   Handles &operator=(const Handles &) = delete;
-  ~Handles()
-  {
+  ~Handles() {
     umfpack_dl_free_symbolic(&symbolic);
     umfpack_dl_free_numeric(&numeric);
   }
 };
 
-void check(long status, const char *step)
-{
+void check(long status, const char *step) {
   if (status == UMFPACK_WARNING_singular_matrix)
     throw SolveError("the system of equations is singular");
   if (status == UMFPACK_ERROR_out_of_memory)
@@ -37,8 +35,7 @@ void check(long status, const char *step)
 
 } // namespace
 
-LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side)
-{
+LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   // Compressed rows of A are compressed columns of A^T: factorise that and solve with its transpose.
   const auto *offsets = reinterpret_cast<const SuiteSparse_long *>(matrix.offsets().data());

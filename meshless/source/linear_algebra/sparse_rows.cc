@@ -8,14 +8,12 @@
 
 namespace meshless::linear_algebra {
 
-void SparseRows::reserve(std::size_t n_entries)
-{
+void SparseRows::reserve(std::size_t n_entries) {
   columns_.reserve(n_entries);
   values_.reserve(n_entries);
 }
 
-void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<const double> values)
-{
+void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<const double> values) {
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (values[k] != 0) {
       columns_.push_back(columns[k]);
@@ -24,8 +22,7 @@ void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<con
   offsets_.push_back(static_cast<std::int64_t>(columns_.size()));
 }
 
-std::vector<double> SparseRows::equilibrate_rows()
-{
+std::vector<double> SparseRows::equilibrate_rows() {
   std::vector<double> divisors(static_cast<std::size_t>(n_rows()));
   for (std::size_t row = 0; row < divisors.size(); ++row) {
     double largest = 0;
@@ -44,8 +41,7 @@ std::vector<double> SparseRows::equilibrate_rows()
   return divisors;
 }
 
-void SparseRows::multiply(std::span<const double> x, std::span<double> y) const
-{
+void SparseRows::multiply(std::span<const double> x, std::span<double> y) const {
   for (std::size_t row = 0; row + 1 < offsets_.size(); ++row) {
     double sum = 0;
     for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k)
@@ -54,8 +50,7 @@ void SparseRows::multiply(std::span<const double> x, std::span<double> y) const
   }
 }
 
-double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b)
-{
+double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b) {
   std::vector<double> product(b.size());
   matrix.multiply(x, product);
   double residual = 0;

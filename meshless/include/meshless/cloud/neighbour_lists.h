@@ -20,8 +20,7 @@ public:
 
   std::size_t n_rows() const { return offsets_.size() - 1; }
   std::size_t n_entries() const { return indices_.size(); }
-  std::span<const Index> operator[](std::size_t row) const
-  {
+  std::span<const Index> operator[](std::size_t row) const {
     return {indices_.data() + offsets_[row], offsets_[row + 1] - offsets_[row]};
   }
   std::span<const std::size_t> offsets() const { return offsets_; }

@@ -12,8 +12,7 @@ template <int dim>
 using Point = std::array<double, dim>;
 
 template <int dim>
-inline double distance_squared(const Point<dim> &a, const Point<dim> &b)
-{
+inline double distance_squared(const Point<dim> &a, const Point<dim> &b) {
   double sum = 0;
   for (int k = 0; k < dim; ++k)
     sum += (a[k] - b[k]) * (a[k] - b[k]);

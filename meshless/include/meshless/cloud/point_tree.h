@@ -23,8 +23,7 @@ public:
   void append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const;
 
   /// The k nearest particles (fewer if the cloud is smaller), nearest first, and their distances.
-  void nearest(const Point<dim> &centre, int k, std::vector<Index> &indices,
-               std::vector<double> &distances) const;
+  void nearest(const Point<dim> &centre, int k, std::vector<Index> &indices, std::vector<double> &distances) const;
 
 private:
   struct Tree;

@@ -51,8 +51,8 @@ public:
 private:
   struct Scratch;
   void add_whole_disc(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const;
-  void add_wedge(const Point2 &centre, double radius, double begin, double end,
-                 std::span<const std::size_t> pieces, SubdomainQuadrature &quadrature) const;
+  void add_wedge(const Point2 &centre, double radius, double begin, double end, std::span<const std::size_t> pieces,
+                 SubdomainQuadrature &quadrature) const;
   void add_boundary(const Point2 &centre, double radius, std::size_t piece, SubdomainQuadrature &quadrature) const;
 
   const Boundary *boundary_;

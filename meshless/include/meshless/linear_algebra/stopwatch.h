@@ -8,8 +8,7 @@ namespace meshless::linear_algebra {
 class Stopwatch {
 public:
   /// Seconds since the last lap; starts the next.
-  double lap()
-  {
+  double lap() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last_).count();
     last_ = now;

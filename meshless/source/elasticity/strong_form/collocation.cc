@@ -22,8 +22,7 @@ struct Rows {
   std::vector<std::array<double, 2>> right_hand_side;
 };
 
-double prescribed(const PlaneProblem &problem, const RowCondition &row, const Point2 &point)
-{
+double prescribed(const PlaneProblem &problem, const RowCondition &row, const Point2 &point) {
   const auto &piece = problem.boundary.pieces()[row.piece];
   const auto &condition = problem.conditions.at(piece.id);
   Vector2 value{};
@@ -37,8 +36,7 @@ double prescribed(const PlaneProblem &problem, const RowCondition &row, const Po
 }
 
 const CornerRule *rule_at(const std::vector<CornerRule> &rules, const Point2 &point, double tolerance,
-                          std::vector<bool> &used)
-{
+                          std::vector<bool> &used) {
   for (std::size_t r = 0; r < rules.size(); ++r)
     if (std::hypot(point[0] - rules[r].corner[0], point[1] - rules[r].corner[1]) <= tolerance) {
       used[r] = true;
@@ -48,11 +46,9 @@ const CornerRule *rule_at(const std::vector<CornerRule> &rules, const Point2 &po
 }
 
 Rows prepare_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
-                  const std::vector<CornerRule> &rules)
-{
+                  const std::vector<CornerRule> &rules) {
   const std::size_t n = particles.size();
-  Rows rows{std::vector<bool>(n), std::vector<std::array<RowCondition, 2>>(n),
-            std::vector<std::array<double, 2>>(n)};
+  Rows rows{std::vector<bool>(n), std::vector<std::array<RowCondition, 2>>(n), std::vector<std::array<double, 2>>(n)};
   std::vector<bool> used(rules.size());
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < n; ++i) {
@@ -86,8 +82,8 @@ Rows prepare_rows(const PlaneProblem &problem, const cloud::Particles<2> &partic
 using Values = basis::ShapeFunctionValues<2>;
 
 /// Coefficients of u1 and u2 of candidate j in one row at point p of a batch.
-std::array<double, 2> equilibrium(const Material &d, const Values &values, std::size_t j, std::size_t p, int component)
-{
+std::array<double, 2> equilibrium(const Material &d, const Values &values, std::size_t j, std::size_t p,
+                                  int component) {
   const double xx = values.hessian(0, j)[p];
   const double xy = values.hessian(1, j)[p];
   const double yy = values.hessian(2, j)[p];
@@ -98,8 +94,7 @@ std::array<double, 2> equilibrium(const Material &d, const Values &values, std::
 }
 
 std::array<double, 2> traction(const Material &d, const Values &values, std::size_t j, std::size_t p, int component,
-                               const Vector2 &normal)
-{
+                               const Vector2 &normal) {
   const double x = values.gradient(0, j)[p];
   const double y = values.gradient(1, j)[p];
   const auto [n1, n2] = normal;
@@ -115,8 +110,7 @@ struct ParticleRows {
 };
 
 ParticleRows rows_of(const PlaneProblem &problem, const Rows &rows, std::size_t particle, std::size_t p,
-                     const basis::GroupedEvaluation<2>::Group &group)
-{
+                     const basis::GroupedEvaluation<2>::Group &group) {
   ParticleRows result;
   for (std::size_t j = 0; j < group.candidates.size(); ++j) {
     if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
@@ -146,8 +140,7 @@ ParticleRows rows_of(const PlaneProblem &problem, const Rows &rows, std::size_t 
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
-                       const std::vector<CornerRule> &corner_rules)
-{
+                       const std::vector<CornerRule> &corner_rules) {
   problem.check();
   SolveSeconds seconds;
   Stopwatch watch;

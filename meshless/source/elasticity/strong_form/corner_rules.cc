@@ -14,8 +14,7 @@ constexpr std::pair<std::string_view, Quantity> names[] = {
     {"u1", Quantity::u1},   {"u2", Quantity::u2},   {"t1", Quantity::t1},  {"t2", Quantity::t2},
     {"s11", Quantity::s11}, {"s22", Quantity::s22}, {"s12", Quantity::s12}};
 
-std::string_view name_of(Quantity quantity)
-{
+std::string_view name_of(Quantity quantity) {
   for (const auto &[name, value] : names)
     if (value == quantity)
       return name;
@@ -24,15 +23,13 @@ std::string_view name_of(Quantity quantity)
 
 bool along_axis(const domain::BoundaryPiece &piece, int axis) { return std::abs(piece.normal()[axis]) > 1 - 1e-9; }
 
-const BoundaryCondition &condition_of(const PlaneProblem &problem, std::size_t piece)
-{
+const BoundaryCondition &condition_of(const PlaneProblem &problem, std::size_t piece) {
   return problem.conditions.at(problem.boundary.pieces()[piece].id);
 }
 
 /// First of the pieces that prescribes `kind` for the component, with the normal along an axis if one is named.
 std::optional<RowCondition> find_row(const PlaneProblem &problem, std::span<const std::size_t> pieces,
-                                     ConditionKind kind, int component, int normal_axis = -1)
-{
+                                     ConditionKind kind, int component, int normal_axis = -1) {
   for (const std::size_t piece : pieces)
     if (condition_of(problem, piece).kind[component] == kind &&
         (normal_axis < 0 || along_axis(problem.boundary.pieces()[piece], normal_axis)))
@@ -40,8 +37,8 @@ std::optional<RowCondition> find_row(const PlaneProblem &problem, std::span<cons
   return {};
 }
 
-std::optional<RowCondition> row_for(const PlaneProblem &problem, std::span<const std::size_t> pieces, Quantity quantity)
-{
+std::optional<RowCondition> row_for(const PlaneProblem &problem, std::span<const std::size_t> pieces,
+                                    Quantity quantity) {
   using enum Quantity;
   const auto displacement = ConditionKind::displacement;
   const auto traction = ConditionKind::traction;
@@ -68,8 +65,7 @@ std::optional<RowCondition> row_for(const PlaneProblem &problem, std::span<const
 
 } // namespace
 
-std::optional<Quantity> quantity_from(std::string_view word)
-{
+std::optional<Quantity> quantity_from(std::string_view word) {
   for (const auto &[name, quantity] : names)
     if (name == word)
       return quantity;
@@ -77,8 +73,7 @@ std::optional<Quantity> quantity_from(std::string_view word)
 }
 
 std::array<RowCondition, 2> conditions_at(const PlaneProblem &problem, std::span<const std::size_t> pieces,
-                                          const CornerRule *rule)
-{
+                                          const CornerRule *rule) {
   if (rule == nullptr) {
     std::size_t nearest = pieces[0];
     for (const std::size_t piece : pieces)
@@ -96,13 +91,16 @@ std::array<RowCondition, 2> conditions_at(const PlaneProblem &problem, std::span
   for (int i = 0; i < 2; ++i) {
     const auto row = row_for(problem, pieces, rule->conditions[i]);
     if (!row)
-      throw std::invalid_argument(fmt::format("the corner at ({:.6g}, {:.6g}) asks for {}, which no boundary there prescribes",
-                                              rule->corner[0], rule->corner[1], name_of(rule->conditions[i])));
+      throw std::invalid_argument(
+          fmt::format("the corner at ({:.6g}, {:.6g}) asks for {}, which no boundary there prescribes", rule->corner[0],
+                      rule->corner[1], name_of(rule->conditions[i])));
     rows[i] = *row;
   }
-  if (rule->conditions[0] == rule->conditions[1])
-    throw std::invalid_argument(fmt::format("the corner at ({:.6g}, {:.6g}) asks twice for {}", rule->corner[0],
-                                            rule->corner[1], name_of(rule->conditions[0])));
+  // Two names may mean one condition: t1 on a piece normal to x1 is s11.
+  if (rows[0].kind == rows[1].kind && rows[0].component == rows[1].component && rows[0].piece == rows[1].piece)
+    throw std::invalid_argument(
+        fmt::format("the corner at ({:.6g}, {:.6g}) asks twice for the same condition, by {} and {}", rule->corner[0],
+                    rule->corner[1], name_of(rule->conditions[0]), name_of(rule->conditions[1])));
   return rows;
 }
 

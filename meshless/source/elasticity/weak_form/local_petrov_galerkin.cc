@@ -24,17 +24,14 @@ constexpr std::size_t batch_size = 64;
 /// Assembles the two rows of one particle after the other; all scratch is reused.
 class Assembler {
 public:
-  Assembler(const PlaneProblem &problem, const cloud::Particles<2> &particles,
-            const basis::ShapeFunctions<2> &basis, const Parameters &parameters)
+  Assembler(const PlaneProblem &problem, const cloud::Particles<2> &particles, const basis::ShapeFunctions<2> &basis,
+            const Parameters &parameters)
       : problem_(problem), particles_(particles), basis_(basis), parameters_(parameters),
         rule_(problem.boundary, parameters.quadrature_points), search_(particles, basis.support()),
-        alpha_(parameters.penalty * problem.material.plane_modulus() / parameters.characteristic_length)
-  {
-  }
+        alpha_(parameters.penalty * problem.material.plane_modulus() / parameters.characteristic_length) {}
 
   /// Appends rows 2 I and 2 I + 1.
-  void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side)
-  {
+  void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
     Stopwatch watch;
     centre_ = particles_.position(particle);
     h_ = particles_.smoothing_length(particle);
@@ -61,8 +58,7 @@ public:
 
 private:
   /// W_I and grad W_I at the current points.
-  void evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient)
-  {
+  void evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient) {
     const std::size_t n = x.size();
     test_.resize(n);
     if (with_gradient)
@@ -86,27 +82,24 @@ private:
         parameters_.test_function);
   }
 
-  const double *derivative(int k, std::size_t j) const
-  {
+  const double *derivative(int k, std::size_t j) const {
     return parameters_.derivatives == DerivativeRule::direct ? values_.gradient(k, j)
                                                              : values_.differentiated_gradient(k, j);
   }
 
-  void evaluate_basis(std::span<const double> x, std::span<const double> y, bool with_value)
-  {
+  void evaluate_basis(std::span<const double> x, std::span<const double> y, bool with_value) {
     Stopwatch watch;
     const bool direct = parameters_.derivatives == DerivativeRule::direct;
     batch_.assign(std::array<std::span<const double>, 2>{x, y});
-    const auto regularity = basis_.evaluate(
-        batch_, candidate_batch_,
-        {.value = with_value, .gradient = direct, .hessian = false, .differentiated_gradient = !direct}, values_,
-        workspace_);
+    const auto regularity =
+        basis_.evaluate(batch_, candidate_batch_,
+                        {.value = with_value, .gradient = direct, .hessian = false, .differentiated_gradient = !direct},
+                        values_, workspace_);
     basis::require_regular(regularity, batch_, basis_);
     seconds.basis += watch.lap();
   }
 
-  void integrate_domain()
-  {
+  void integrate_domain() {
     Stopwatch watch;
     const std::span<const double> x = quadrature_.point[0];
     const std::span<const double> y = quadrature_.point[1];
@@ -142,8 +135,7 @@ private:
     seconds.assembly += watch.lap();
   }
 
-  void add_gradient_products(std::size_t n)
-  {
+  void add_gradient_products(std::size_t n) {
     for (std::size_t j = 0; j < n; ++j) {
       const double *phi1 = derivative(0, j);
       const double *phi2 = derivative(1, j);
@@ -168,8 +160,7 @@ private:
     }
   }
 
-  void integrate_body_force()
-  {
+  void integrate_body_force() {
     const std::size_t n = quadrature_.JxW.size();
     points_.resize(n);
     fields_.resize(n);
@@ -181,8 +172,7 @@ private:
         right_[k] += quadrature_.JxW[q] * test_[q] * fields_[q][k];
   }
 
-  void integrate_boundary(const domain::SubdomainQuadrature::BoundaryPart &part)
-  {
+  void integrate_boundary(const domain::SubdomainQuadrature::BoundaryPart &part) {
     Stopwatch watch;
     const auto &condition = problem_.conditions.at(part.id);
     const std::size_t size = part.end - part.begin;
@@ -213,9 +203,8 @@ private:
     seconds.assembly += watch.lap();
   }
 
-  void add_to_right_hand_side(const domain::SubdomainQuadrature::BoundaryPart &part,
-                              const BoundaryCondition &condition, ConditionKind kind, double factor)
-  {
+  void add_to_right_hand_side(const domain::SubdomainQuadrature::BoundaryPart &part, const BoundaryCondition &condition,
+                              ConditionKind kind, double factor) {
     for (int k = 0; k < 2; ++k)
       if (condition.kind[k] == kind)
         for (std::size_t q = 0; q < part.end - part.begin; ++q)
@@ -224,8 +213,7 @@ private:
 
   /// alpha int u_i W - int sigma_ij n_j W for the components i whose displacement is prescribed.
   void add_essential_terms(const domain::SubdomainQuadrature::BoundaryPart &part, const BoundaryCondition &condition,
-                           std::size_t size)
-  {
+                           std::size_t size) {
     const auto &d = problem_.material;
     const auto [n1, n2] = part.normal;
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
@@ -249,8 +237,7 @@ private:
     }
   }
 
-  void append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side)
-  {
+  void append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
     const std::size_t n = candidates_.size();
     columns_.resize(2 * n);
     entries_.resize(2 * n);
@@ -301,8 +288,7 @@ private:
 } // namespace
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
-                       std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters)
-{
+                       std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters) {
   problem.check();
   Stopwatch watch;
   const std::size_t n = particles->size();

@@ -1,0 +1,23 @@
+#include "comparisons/benchmarks/benchmark_table.h"
+
+#include "comparisons/benchmarks/cantilever/problem.h"
+#include "comparisons/study/plane_experiment.h"
+
+namespace comparisons::benchmarks {
+
+namespace {
+
+/// Benchmark of plane elasticity from its problem.
+template <typename MakeProblem>
+study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make_problem) {
+  return {std::move(description), [make_problem](const scene::Scene &scene, const scene::ProblemVariant &variant,
+                                                 const std::vector<methods::Method> &methods) {
+            return study::make_plane_experiment(make_problem(scene, variant), methods);
+          }};
+}
+
+} // namespace
+
+std::vector<study::Benchmark> benchmark_table() { return {plane(cantilever::description(), cantilever::make_problem)}; }
+
+} // namespace comparisons::benchmarks

@@ -1,0 +1,125 @@
+#include "comparisons/methods/fem.h"
+
+#include "fem_reference/elasticity/plane_elasticity.h"
+
+#include "meshless/linear_algebra/stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace comparisons::methods {
+
+namespace {
+
+namespace reference = fem_reference::elasticity;
+using scene::Type;
+
+reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
+  reference::PlaneProblem problem{
+      {},
+      reference::Material(statement.material.youngs_modulus, statement.material.poisson_ratio,
+                          statement.material.plane_strain ? reference::PlaneModel::plane_strain
+                                                          : reference::PlaneModel::plane_stress),
+      {},
+      statement.body_force};
+  problem.mesh.vertices = std::move(mesh.vertices);
+  problem.mesh.cells = std::move(mesh.cells);
+  for (const auto &edge : mesh.boundary)
+    problem.mesh.boundary.push_back({edge.vertices, edge.id});
+  for (const auto &[id, condition] : statement.conditions) {
+    reference::BoundaryCondition translated;
+    for (std::size_t k = 0; k < 2; ++k)
+      translated.kind[k] = condition.displacement_prescribed[k] ? reference::ConditionKind::displacement
+                                                                : reference::ConditionKind::traction;
+    translated.displacement = condition.displacement;
+    translated.traction = condition.traction;
+    problem.boundary[id] = std::move(translated);
+  }
+  return problem;
+}
+
+class ElementField final : public Solution {
+public:
+  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds)
+      : solution_(std::move(solution)) {
+    const auto &s = solution_.seconds();
+    record_.n_points = static_cast<std::int64_t>(n_vertices);
+    record_.n_dofs = static_cast<std::int64_t>(solution_.n_dofs());
+    record_.nonzeros = static_cast<std::int64_t>(solution_.nonzeros());
+    // Connectivity, numbering and sparsity are what neighbour search is to particles.
+    record_.seconds = {{"points", points_seconds + s.mesh},
+                       {"neighbours", s.degrees_of_freedom},
+                       {"assembly", s.assembly},
+                       {"solve", s.solve}};
+    record_.quantities = {{"backward_error", solution_.backward_error()}};
+  }
+
+  std::vector<std::string> fields() const override { return {"displacement", "stress"}; }
+  std::size_t n_components(std::string_view field) const override { return field == "displacement" ? 2 : 3; }
+
+  void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
+                std::span<double> values) const override {
+    if (field == "displacement") {
+      std::vector<reference::Vector> u(points.size());
+      solution_.displacement(points, u);
+      for (std::size_t i = 0; i < u.size(); ++i)
+        std::copy(u[i].begin(), u[i].end(), values.begin() + static_cast<std::ptrdiff_t>(2 * i));
+    } else if (field == "stress") {
+      std::vector<std::array<double, 3>> s(points.size());
+      solution_.stress(points, s);
+      for (std::size_t i = 0; i < s.size(); ++i)
+        std::copy(s[i].begin(), s[i].end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    } else
+      throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
+  }
+
+private:
+  reference::PlaneSolution solution_;
+};
+
+std::unique_ptr<Solution> solve(const SolveRequest &request) {
+  meshless::linear_algebra::Stopwatch watch;
+  const auto problem = translate(request.statement, request.mesh());
+  const double points_seconds = watch.lap();
+  reference::Options options;
+  options.degree = request.parameters.text("element").back() - '0';
+  options.solver = request.parameters.text("solver") == "umfpack" ? reference::LinearSolver::umfpack
+                                                                  : reference::LinearSolver::cholesky;
+  return std::make_unique<ElementField>(reference::solve(problem, options), problem.mesh.vertices.size(),
+                                        points_seconds);
+}
+
+} // namespace
+
+Method fem() {
+  Method method;
+  method.description.name = "fem";
+  method.description.meaning = "finite elements by deal.II, isoparametric Q1 to Q4";
+  method.description.parameters = {
+      {.name = "element",
+       .type = Type::choice,
+       .choices = {"Q1", "Q2", "Q3", "Q4"},
+       .default_value = "Q2",
+       .meaning = "element: degree of displacement and geometry"},
+      {.name = "solver",
+       .type = Type::choice,
+       .choices = {"cholesky", "umfpack"},
+       .default_value = "cholesky",
+       .meaning = "sparse direct solver: CHOLMOD or UMFPACK"},
+  };
+  method.description.effects = {"elasticity", "body_force"};
+  method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
+    const double nu = context.material.real("nu");
+    if (context.material.text("model") == "plane strain" && nu > 0.49 && nu < 0.5)
+      diagnostics.warning(context.material.location("nu"), "material.nu",
+                          fmt::format("{} is nearly incompressible: displacement methods in plane strain lock above "
+                                      "0.49, and their errors grow",
+                                      nu));
+  };
+  method.solve = solve;
+  return method;
+}
+
+} // namespace comparisons::methods

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "comparisons/methods/method_table.h"
+
+namespace comparisons::methods {
+
+/// Collocation with the basis' second derivatives, Batra & Zhang 2008, section 3.1.
+Method strong();
+/// MLPG with directly found derivatives, section 3.2.1.
+Method weak1();
+/// MLPG with differentiated shape functions, section 3.2.2.
+Method weak2();
+
+} // namespace comparisons::methods

@@ -1,0 +1,40 @@
+#include "comparisons/program/data_files.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace comparisons::program {
+
+namespace fs = std::filesystem;
+
+fs::path benchmarks_directory() {
+  const fs::path candidates[] = {fs::path(PETROV_INSTALL_DATA_DIR) / "benchmarks",
+                                 fs::path(PETROV_SOURCE_DIR) / "comparisons" / "benchmarks"};
+  // A program that runs from its build folder uses the scenes it was built from.
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const bool installed = !error && program.string().starts_with(
+                                       fs::path(PETROV_INSTALL_DATA_DIR).parent_path().parent_path().string() + "/");
+  for (const int i : {installed ? 0 : 1, installed ? 1 : 0})
+    if (fs::is_directory(candidates[i], error))
+      return candidates[i];
+  throw std::runtime_error("the shipped scenes are neither in " + candidates[0].string() + " nor in " +
+                           candidates[1].string());
+}
+
+std::vector<fs::path> shipped_scenes(const std::string &benchmark) {
+  std::vector<fs::path> scenes;
+  for (const auto &entry : fs::directory_iterator(benchmarks_directory() / benchmark))
+    if (entry.path().extension() == ".toml" && entry.path().filename() != "published.toml")
+      scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end(), [](const fs::path &a, const fs::path &b) {
+    const bool main_a = a.filename() == "scene.toml";
+    const bool main_b = b.filename() == "scene.toml";
+    return main_a != main_b ? main_a : a < b;
+  });
+  return scenes;
+}
+
+fs::path published_file(const std::string &benchmark) { return benchmarks_directory() / benchmark / "published.toml"; }
+
+} // namespace comparisons::program

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace comparisons::program {
+
+/// Folder that holds the benchmarks' scenes: beside an installed program, else the source tree.
+/// @throws std::runtime_error if neither is there
+std::filesystem::path benchmarks_directory();
+
+/// Scenes of one benchmark, scene.toml first, the others by name.
+std::vector<std::filesystem::path> shipped_scenes(const std::string &benchmark);
+
+/// The benchmark's published.toml; may not exist.
+std::filesystem::path published_file(const std::string &benchmark);
+
+} // namespace comparisons::program

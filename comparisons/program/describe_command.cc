@@ -1,0 +1,202 @@
+#include "comparisons/program/describe_command.h"
+
+#include "comparisons/reports/files.h"
+#include "comparisons/reports/json.h"
+#include "comparisons/reports/reports.h"
+#include "comparisons/reports/table.h"
+#include "comparisons/scene/describe.h"
+#include "comparisons/scene/reader.h"
+#include "comparisons/study/run_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace comparisons::program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::optional<scene::Scene> read(const fs::path &file, const CommonOptions &options,
+                                 const study::Catalogue &catalogue) {
+  auto result = scene::read_scene(file, options.overrides(), study::vocabulary_of(catalogue));
+  if (!result.diagnostics.all().empty())
+    fmt::print(stderr, "{}", scene::to_text(result.diagnostics));
+  return std::move(result.scene);
+}
+
+std::string bytes_text(double bytes) {
+  return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} MB", std::max(1.0, bytes / 1e6));
+}
+
+std::string seconds_text(double seconds) {
+  return seconds >= 60  ? fmt::format("{:.0f} min", seconds / 60)
+         : seconds >= 1 ? fmt::format("{:.0f} s", seconds)
+                        : fmt::format("{:.3f} s", seconds);
+}
+
+void print_cells(const scene::Scene &scene, const study::Catalogue &catalogue) {
+  const auto &benchmark = study::find_benchmark(catalogue, scene.benchmark);
+  const auto runs = static_cast<double>(scene.study.integer("repeats")) + 1;
+  double total = 0;
+  fmt::print("\nCells ({} run each: one warm-up, {} timed)\n  {:<34} {:>8} {:>9} {:>9} {:>9} {:>9}\n", runs, runs - 1,
+             "method", "level", "points", "unknowns", "memory", "time");
+  for (const auto &variant : scene.problems) {
+    const auto experiment = benchmark.make_experiment(scene, variant, catalogue.methods);
+    for (const auto &request : scene.methods)
+      for (const auto &level : request.levels) {
+        const std::string name = request.label + (variant.label.empty() ? "" : " [" + variant.label + "]");
+        if (!request.refused.empty()) {
+          fmt::print("  {:<34} {:>8} refused: {}\n", name, level.text, request.refused);
+          continue;
+        }
+        const auto e = experiment->estimate(request, level);
+        total += e.seconds * runs;
+        fmt::print("  {:<34} {:>8} {:>9.0f} {:>9.0f} {:>9} {:>9}\n", name, level.text, e.n_points, e.n_dofs,
+                   bytes_text(e.bytes), seconds_text(e.seconds));
+      }
+  }
+  fmt::print("Estimated time of all runs: {} (rough figures for one core; unknowns of Q2 to Q4 from the vertices)\n",
+             seconds_text(total));
+}
+
+} // namespace
+
+int check_scenes(const std::vector<fs::path> &files, const CommonOptions &options, const study::Catalogue &catalogue) {
+  int code = all_as_expected;
+  for (const auto &file : files) {
+    const auto scene = read(file, options, catalogue);
+    if (!scene) {
+      code = invalid_scene;
+      continue;
+    }
+    std::size_t n_cells = 0;
+    try {
+      for (const auto &variant : scene->problems) {
+        const auto experiment =
+            study::find_benchmark(catalogue, scene->benchmark).make_experiment(*scene, variant, catalogue.methods);
+        for (const auto &request : scene->methods)
+          for (const auto &level : request.levels) {
+            experiment->estimate(request, level);
+            ++n_cells;
+          }
+      }
+    } catch (const std::exception &error) {
+      fmt::print(stderr, "{}: error: {}\n", file.string(), error.what());
+      code = invalid_scene;
+      continue;
+    }
+    fmt::print("{}: valid, {} cells\n", file.string(), n_cells);
+  }
+  return code;
+}
+
+int explain_scene(const fs::path &file, const CommonOptions &options, const study::Catalogue &catalogue) {
+  const auto scene = read(file, options, catalogue);
+  if (!scene)
+    return invalid_scene;
+  const auto &benchmark = study::find_benchmark(catalogue, scene->benchmark).description;
+  const auto vocabulary = study::vocabulary_of(catalogue);
+  fmt::print("{}\nBenchmark {}: {}\n\n{}", scene->title, benchmark.name, benchmark.meaning,
+             scene::describe_effects(*scene, vocabulary));
+  fmt::print(
+      "\nFields allocated: displacement (2 per point){}. Stress and strain are computed where they are asked for.\n",
+      std::find(scene->effects.begin(), scene->effects.end(), "body_force") == scene->effects.end()
+          ? ""
+          : "; the body force is evaluated at quadrature points, not stored");
+  print_cells(*scene, catalogue);
+  fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
+             scene::describe_declarations(benchmark.material));
+  std::vector<std::string> shown;
+  for (const auto &request : scene->methods) {
+    if (std::find(shown.begin(), shown.end(), request.name) != shown.end())
+      continue;
+    shown.push_back(request.name);
+    for (const auto &method : benchmark.methods.empty() ? vocabulary.methods : benchmark.methods)
+      if (method.name == request.name)
+        fmt::print("[[method]] name = \"{}\": {}\n{}\n", method.name, method.meaning,
+                   scene::describe_declarations(method.parameters));
+  }
+  fmt::print("[study]\n{}\n[output]\n{}", scene::describe_declarations(scene::study_declarations()),
+             scene::describe_declarations(scene::output_declarations()));
+  return all_as_expected;
+}
+
+int list_names(const std::string &what, const study::Catalogue &catalogue) {
+  const auto vocabulary = study::vocabulary_of(catalogue);
+  const auto print = [](const auto &entries) {
+    std::size_t width = 0;
+    for (const auto &entry : entries)
+      width = std::max(width, entry.name.size());
+    for (const auto &entry : entries)
+      fmt::print("{:<{}}  {}\n", entry.name, width, entry.meaning);
+  };
+  if (what == "methods")
+    print(vocabulary.methods);
+  else if (what == "bases")
+    print(vocabulary.bases);
+  else if (what == "kernels")
+    print(vocabulary.kernels);
+  else if (what == "effects")
+    print(vocabulary.effects);
+  else if (what == "benchmarks")
+    print(vocabulary.benchmarks);
+  else {
+    fmt::print(stderr, "error: cannot list '{}'; there are methods, bases, kernels, effects, benchmarks\n", what);
+    return usage_error;
+  }
+  return all_as_expected;
+}
+
+int write_initial_scene(const std::string &benchmark, const std::string &file, const study::Catalogue &catalogue) {
+  const auto vocabulary = study::vocabulary_of(catalogue);
+  std::vector<std::string> names;
+  for (const auto &entry : vocabulary.benchmarks) {
+    names.push_back(entry.name);
+    if (entry.name != benchmark)
+      continue;
+    const std::string text = scene::initial_scene(entry, entry.methods.empty() ? vocabulary.methods : entry.methods);
+    if (file == "-") {
+      fmt::print("{}", text);
+      return all_as_expected;
+    }
+    if (fs::exists(file)) {
+      fmt::print(stderr, "error: {} exists; it is not overwritten\n", file);
+      return usage_error;
+    }
+    try {
+      reports::write_file_atomically(file, text);
+    } catch (const reports::OutputError &error) {
+      fmt::print(stderr, "error: {}\n", error.what());
+      return invalid_scene;
+    }
+    fmt::print(stderr, "{} written; try: petrov explain {}\n", file, file);
+    return all_as_expected;
+  }
+  const auto near = scene::nearest_name(benchmark, names);
+  fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", benchmark, fmt::join(names, ", "),
+             near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
+  return usage_error;
+}
+
+int rebuild_report(const fs::path &file, const CommonOptions &options) {
+  try {
+    const auto results = reports::read_results(file);
+    const fs::path directory = options.output.value_or(file.has_parent_path() ? file.parent_path().string() : ".");
+    auto formats = options.formats;
+    if (formats.empty())
+      formats = reports::report_formats();
+    reports::prepare_output_directory(directory);
+    reports::write_reports(results, directory, formats, "results");
+    fmt::print("{}", reports::text_report(results));
+    return all_as_expected;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return invalid_scene;
+  }
+}
+
+} // namespace comparisons::program

@@ -1,0 +1,133 @@
+#include "comparisons/program/program.h"
+
+#include "comparisons/metrics/machine.h"
+#include "comparisons/program/describe_command.h"
+#include "comparisons/program/options.h"
+#include "comparisons/program/run_command.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace comparisons::program {
+
+namespace {
+
+std::string version_text() {
+  const auto program = metrics::describe_program();
+  return fmt::format("petrov {} (commit {}, {} build)", program.version, program.commit, program.build_type);
+}
+
+void add_common_options(CLI::App &command, CommonOptions &options) {
+  command.add_option("--output", options.output, "folder of the results (default: the scene's, else 'out')")
+      ->type_name("DIR");
+  command.add_option("--format", options.formats, "formats of the reports, separated by commas")
+      ->delimiter(',')
+      ->type_name("LIST");
+  command.add_option("--set", options.sets, "override a key of the scene, e.g. material.nu=0.4999; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--threads", options.threads, "threads of every method")->check(CLI::PositiveNumber);
+  command.add_option("--repeats", options.repeats, "timed runs of every cell")->check(CLI::PositiveNumber);
+  command.add_flag("--quiet", options.quiet, "no progress and no messages but errors");
+  command.add_flag("--isolate", options.isolate, "run every cell in a process of its own");
+}
+
+/// Parses; returns an exit code if the program is to end here (help, version, a usage error).
+std::optional<int> parse(CLI::App &app, int argc, const char *const *argv) {
+  try {
+    app.parse(argc, argv);
+    return {};
+  } catch (const CLI::ParseError &error) {
+    return app.exit(error) == 0 ? all_as_expected : usage_error;
+  }
+}
+
+/// Runs a command; what it throws is a defect or the system's failure, and is told as such.
+template <typename Command>
+int guarded(const Command &command) {
+  try {
+    return command();
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return invalid_scene;
+  }
+}
+
+} // namespace
+
+int run_program(int argc, const char *const *argv, const study::Catalogue &catalogue) {
+  CLI::App app("Petrov: meshless methods and finite elements, side by side", "petrov");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 as expected, 2 usage, 3 invalid scene or unwritable output, 4 a cell failed,\n"
+             "5 a published number missed, 6 a limit reached, 130 interrupted.");
+  CommonOptions options;
+  std::vector<std::string> names;
+  std::string name;
+  std::string file;
+  bool quick = false;
+  bool full = false;
+  int code = 0;
+
+  auto *run = app.add_subcommand("run", "run scenes and write their reports");
+  run->add_option("SCENE", names, "scene files (TOML)")->required();
+  add_common_options(*run, options);
+  run->callback([&] { code = guarded([&] { return run_scenes({names.begin(), names.end()}, options, catalogue); }); });
+
+  auto *compare = app.add_subcommand("compare", "run the shipped scenes and compare with the papers");
+  compare->add_option("BENCHMARK", names, "benchmarks; all when none is named");
+  auto *quick_flag = compare->add_flag("--quick", quick, "every benchmark, at most 3 minutes (default)");
+  compare->add_flag("--full", full, "everything")->excludes(quick_flag);
+  add_common_options(*compare, options);
+  compare->callback([&] { code = guarded([&] { return compare_benchmarks(names, full, options, catalogue); }); });
+
+  auto *check = app.add_subcommand("check", "validate scenes without solving");
+  check->add_option("SCENE", names, "scene files (TOML)")->required();
+  add_common_options(*check, options);
+  check->callback([&] {
+    code = guarded([&] { return check_scenes({names.begin(), names.end()}, options, catalogue); });
+  });
+
+  auto *explain = app.add_subcommand("explain", "what a scene calls for, its cost, and what each key means");
+  explain->add_option("SCENE", name, "scene file (TOML)")->required();
+  add_common_options(*explain, options);
+  explain->callback([&] { code = guarded([&] { return explain_scene(name, options, catalogue); }); });
+
+  auto *list = app.add_subcommand("list", "list methods, bases, kernels, effects or benchmarks");
+  list->add_option("WHAT", name, "methods|bases|kernels|effects|benchmarks")->required();
+  list->callback([&] { code = guarded([&] { return list_names(name, catalogue); }); });
+
+  auto *init = app.add_subcommand("init", "write a scene to start from");
+  init->add_option("BENCHMARK", name, "benchmark to start from")->required();
+  init->add_option("FILE", file, "file to write, '-' for the terminal (default BENCHMARK.toml)");
+  init->callback([&] {
+    code = guarded([&] { return write_initial_scene(name, file.empty() ? name + ".toml" : file, catalogue); });
+  });
+
+  auto *report = app.add_subcommand("report", "rebuild the reports from results.json");
+  report->add_option("RESULTS", name, "results.json of a run")->required();
+  add_common_options(*report, options);
+  report->callback([&] { code = guarded([&] { return rebuild_report(name, options); }); });
+
+  const auto ended = parse(app, argc, argv);
+  return ended.value_or(code);
+}
+
+int run_comparison(const std::string &benchmark, int argc, const char *const *argv, const study::Catalogue &catalogue) {
+  CLI::App app("Petrov: the benchmark " + benchmark + " beside its papers", "compare_" + benchmark);
+  app.set_version_flag("--version", version_text());
+  CommonOptions options;
+  bool quick = false;
+  bool full = false;
+  auto *quick_flag = app.add_flag("--quick", quick, "the quick scenes (default)");
+  app.add_flag("--full", full, "all scenes")->excludes(quick_flag);
+  add_common_options(app, options);
+  if (const auto ended = parse(app, argc, argv))
+    return *ended;
+  return guarded([&] { return compare_benchmarks({benchmark}, full, options, catalogue); });
+}
+
+} // namespace comparisons::program

@@ -1,0 +1,240 @@
+#include "comparisons/program/run_command.h"
+
+#include "comparisons/ledger/ledger.h"
+#include "comparisons/metrics/machine.h"
+#include "comparisons/program/data_files.h"
+#include "comparisons/program/interrupt.h"
+#include "comparisons/reports/files.h"
+#include "comparisons/reports/reports.h"
+#include "comparisons/scene/reader.h"
+#include "comparisons/study/run_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <unistd.h>
+
+namespace comparisons::program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a run is about to do; complete before anything is computed.
+struct Plan {
+  std::vector<scene::Scene> scenes;
+  fs::path directory;
+  std::vector<std::string> formats;
+  ledger::MissingCells missing = ledger::MissingCells::count_as_missed;
+};
+
+void print_diagnostics(const scene::Diagnostics &diagnostics) {
+  if (!diagnostics.all().empty())
+    fmt::print(stderr, "{}", scene::to_text(diagnostics));
+}
+
+/// Reads all scenes; nothing if one has an error (all findings are printed).
+std::optional<std::vector<scene::Scene>> read_scenes(const std::vector<fs::path> &files, const CommonOptions &options,
+                                                     const study::Catalogue &catalogue) {
+  const auto vocabulary = study::vocabulary_of(catalogue);
+  const auto overrides = options.overrides();
+  std::vector<scene::Scene> scenes;
+  bool valid = true;
+  for (const auto &file : files) {
+    auto result = scene::read_scene(file, overrides, vocabulary);
+    if (!options.quiet || result.diagnostics.has_errors())
+      print_diagnostics(result.diagnostics);
+    if (result.scene)
+      scenes.push_back(std::move(*result.scene));
+    else
+      valid = false;
+  }
+  if (!valid)
+    return {};
+  return scenes;
+}
+
+void add_effects(const std::vector<scene::Scene> &scenes, const study::Catalogue &catalogue,
+                 reports::Results &results) {
+  std::set<std::string> active;
+  for (const auto &scene : scenes)
+    active.insert(scene.effects.begin(), scene.effects.end());
+  for (const auto &effect : study::vocabulary_of(catalogue).effects)
+    (active.contains(effect.name) ? results.effects_active : results.effects_absent).push_back(effect.name);
+}
+
+void add_scene_json(const std::vector<scene::Scene> &scenes, reports::Results &results) {
+  if (scenes.size() == 1) {
+    results.scene = scene::to_json(scenes.front());
+    return;
+  }
+  results.scene = nlohmann::ordered_json::array();
+  for (const auto &scene : scenes)
+    results.scene.push_back(scene::to_json(scene));
+}
+
+/// Progress on one line of the terminal; silent when it is not one.
+class Progress {
+public:
+  explicit Progress(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
+  ~Progress() { show({}); }
+  Progress(const Progress &) = delete;
+  Progress &operator=(const Progress &) = delete;
+
+  void show(const std::string &text) {
+    if (!on_)
+      return;
+    fmt::print(stderr, "\r\033[K{}", text);
+    std::fflush(stderr);
+  }
+
+private:
+  bool on_;
+};
+
+void settle_published(const Plan &plan, reports::Results &results) {
+  std::set<std::string> benchmarks;
+  for (const auto &scene : plan.scenes)
+    benchmarks.insert(scene.benchmark);
+  for (const auto &benchmark : benchmarks) {
+    const auto file = published_file(benchmark);
+    if (!fs::exists(file))
+      continue;
+    auto settled = ledger::settle(ledger::load_published(file), results.cells, plan.missing);
+    results.published.insert(results.published.end(), settled.begin(), settled.end());
+  }
+}
+
+int execute(const Plan &plan, const CommonOptions &options, const study::Catalogue &catalogue, bool with_ledger) {
+  try {
+    reports::prepare_output_directory(plan.directory);
+    if (!plan.scenes.empty())
+      fs::create_directories(plan.directory / "series");
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return invalid_scene;
+  }
+  int threads = 1;
+  for (const auto &scene : plan.scenes)
+    threads = std::max(threads, static_cast<int>(scene.study.integer("threads")));
+  reports::Results results;
+  results.program = metrics::describe_program();
+  results.machine = metrics::describe_machine(threads);
+  results.not_comparable = metrics::reasons_not_comparable(results.program, results.machine);
+  add_scene_json(plan.scenes, results);
+  add_effects(plan.scenes, catalogue, results);
+
+  const Interrupt interrupt;
+  {
+    Progress progress(options.quiet);
+    study::RunOptions run;
+    run.isolate = options.isolate;
+    run.directory = plan.directory;
+    run.stop_requested = [] { return Interrupt::requested(); };
+    run.progress = [&](const std::string &text) { progress.show(text); };
+    for (const auto &scene : plan.scenes) {
+      if (Interrupt::requested())
+        break;
+      auto cells = study::run_scene(scene, catalogue, run);
+      results.cells.insert(results.cells.end(), std::make_move_iterator(cells.begin()),
+                           std::make_move_iterator(cells.end()));
+    }
+  }
+  results.interrupted = Interrupt::requested();
+  if (with_ledger && !results.interrupted)
+    settle_published(plan, results);
+
+  const auto files = reports::write_reports(results, plan.directory, plan.formats, "results");
+  fmt::print("{}", reports::text_report(results));
+  std::fflush(stdout);
+  std::string names;
+  for (const auto &file : files)
+    names += " " + file.string();
+  if (!options.quiet)
+    fmt::print(stderr, "\nWritten:{} and curves in {}\n", names, (plan.directory / "series").string());
+  return exit_code_of(results);
+}
+
+} // namespace
+
+std::vector<std::string> CommonOptions::overrides() const {
+  std::vector<std::string> result = sets;
+  if (output)
+    result.push_back("output.directory=" + nlohmann::json(*output).dump());
+  if (!formats.empty())
+    result.push_back("output.formats=" + nlohmann::json(formats).dump());
+  if (threads)
+    result.push_back(fmt::format("study.threads={}", *threads));
+  if (repeats)
+    result.push_back(fmt::format("study.repeats={}", *repeats));
+  return result;
+}
+
+int run_scenes(const std::vector<fs::path> &files, const CommonOptions &options, const study::Catalogue &catalogue) {
+  auto scenes = read_scenes(files, options, catalogue);
+  if (!scenes)
+    return invalid_scene;
+  Plan plan;
+  plan.directory = scenes->front().output.text("directory");
+  plan.formats = scenes->front().formats;
+  plan.scenes = std::move(*scenes);
+  // A user's own scene is held against the papers only when it is one of the shipped files.
+  bool shipped = options.sets.empty();
+  for (const auto &file : files) {
+    std::error_code error;
+    shipped = shipped && fs::weakly_canonical(file, error)
+                             .string()
+                             .starts_with(fs::weakly_canonical(benchmarks_directory(), error).string() + "/");
+  }
+  return execute(plan, options, catalogue, shipped);
+}
+
+int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, const CommonOptions &options,
+                       const study::Catalogue &catalogue) {
+  std::vector<std::string> known;
+  for (const auto &benchmark : catalogue.benchmarks)
+    known.push_back(benchmark.description.name);
+  std::vector<fs::path> files;
+  for (const auto &name : benchmarks.empty() ? known : benchmarks) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const auto near = scene::nearest_name(name, known);
+      fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "),
+                 near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
+      return usage_error;
+    }
+    const auto scenes = shipped_scenes(name);
+    files.insert(files.end(), scenes.begin(), scenes.end());
+  }
+  auto scenes = read_scenes(files, options, catalogue);
+  if (!scenes)
+    return invalid_scene;
+  Plan plan;
+  if (!options.sets.empty())
+    plan.missing = ledger::MissingCells::leave_out;
+  plan.directory = options.output.value_or("out");
+  plan.formats = scenes->front().formats;
+  for (auto &scene : *scenes)
+    if (full || scene.study.text("effort") == "quick")
+      plan.scenes.push_back(std::move(scene));
+  return execute(plan, options, catalogue, true);
+}
+
+int exit_code_of(const reports::Results &results) {
+  if (results.interrupted)
+    return interrupted;
+  bool limit = false;
+  bool failed = false;
+  bool missed = false;
+  for (const auto &cell : results.cells)
+    if (!cell.expected)
+      (cell.status == reports::Status::limit ? limit : failed) = true;
+  for (const auto &entry : results.published)
+    missed = missed || !entry.expected;
+  return limit ? limit_reached : failed ? cell_failed : missed ? published_missed : all_as_expected;
+}
+
+} // namespace comparisons::program

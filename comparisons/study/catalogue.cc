@@ -1,0 +1,55 @@
+#include "comparisons/study/catalogue.h"
+
+#include "comparisons/benchmarks/benchmark_table.h"
+#include "comparisons/reports/reports.h"
+
+#include "meshless/basis/basis_table.h"
+#include "meshless/kernels/kernel_table.h"
+
+namespace comparisons::study {
+
+namespace {
+
+/// The closed list of effects; which method can do which is the methods' word.
+const std::vector<scene::NamedMeaning> &effect_table() {
+  static const std::vector<scene::NamedMeaning> effects{
+      {"elasticity", "linear elastic solid, small strain"},
+      {"body_force", "force per volume"},
+      {"inertia", "mass times acceleration"},
+      {"artificial_viscosity", "viscous pressure that smooths shocks"},
+      {"damping", "force against velocity"},
+      {"thermal_expansion", "strain by temperature"},
+      {"gas_pressure", "pressure of a gas by its equation of state"},
+      {"heat_conduction", "artificial heat conduction of gases"},
+      {"programmed_burn", "energy release at a prescribed detonation front"},
+  };
+  return effects;
+}
+
+} // namespace
+
+Catalogue shipped_catalogue() { return {methods::method_table(), benchmarks::benchmark_table()}; }
+
+scene::Vocabulary vocabulary_of(const Catalogue &catalogue) {
+  scene::Vocabulary vocabulary;
+  for (const auto &method : catalogue.methods)
+    vocabulary.methods.push_back(method.description);
+  for (const auto &benchmark : catalogue.benchmarks)
+    vocabulary.benchmarks.push_back(benchmark.description);
+  vocabulary.effects = effect_table();
+  for (const auto &kernel : meshless::kernels::kernel_table())
+    vocabulary.kernels.push_back({std::string(kernel.name), std::string(kernel.meaning)});
+  for (const auto &basis : meshless::basis::basis_table())
+    vocabulary.bases.push_back({std::string(basis.name), std::string(basis.meaning)});
+  const std::map<std::string, std::string> meanings{{"text", "aligned tables"},
+                                                    {"md", "tables in Markdown"},
+                                                    {"csv", "one row a cell and quantity"},
+                                                    {"json", "everything, results.json"}};
+  for (const auto &format : reports::report_formats()) {
+    const auto found = meanings.find(format);
+    vocabulary.formats.push_back({format, found == meanings.end() ? "" : found->second});
+  }
+  return vocabulary;
+}
+
+} // namespace comparisons::study

@@ -1,0 +1,138 @@
+#include "comparisons/study/plane_experiment.h"
+
+#include "comparisons/metrics/error_norms.h"
+#include "comparisons/metrics/memory.h"
+#include "comparisons/reports/files.h"
+
+#include "meshless/linear_algebra/stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+namespace comparisons::study {
+
+namespace {
+
+using problems::Stress2;
+using problems::Vector2;
+
+std::string series_text(const problems::SampleLine &line, const methods::Solution &solution,
+                        const problems::ExactSolution &exact) {
+  const std::size_t n = line.points.size();
+  std::vector<double> displacement(2 * n);
+  std::vector<double> stress(3 * n);
+  solution.evaluate("displacement", line.points, displacement);
+  solution.evaluate("stress", line.points, stress);
+  std::vector<Vector2> exact_displacement(n);
+  std::vector<Stress2> exact_stress(n);
+  exact.displacement(line.points, exact_displacement);
+  exact.stress(line.points, exact_stress);
+  std::string text = "x1,x2,u1,u2,s11,s22,s12,exact_u1,exact_u2,exact_s11,exact_s22,exact_s12\n";
+  for (std::size_t i = 0; i < n; ++i)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", line.points[i][0], line.points[i][1],
+                        displacement[2 * i], displacement[2 * i + 1], stress[3 * i], stress[3 * i + 1],
+                        stress[3 * i + 2], exact_displacement[i][0], exact_displacement[i][1], exact_stress[i][0],
+                        exact_stress[i][1], exact_stress[i][2]);
+  return text;
+}
+
+class PlaneExperiment final : public Experiment {
+public:
+  PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods)
+      : problem_(std::move(problem)), methods_(methods) {}
+
+  void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
+           const std::filesystem::path &series_directory, reports::Cell &cell) const override {
+    const methods::SolveRequest solve_request{problem_->statement(), [&] { return problem_->cloud(level); },
+                                              [&] { return problem_->mesh(level); }, request.parameters};
+    const auto &method = find(request.name);
+    const metrics::PeakMemory memory;
+    meshless::linear_algebra::Stopwatch watch;
+    const auto solution = method.solve(solve_request);
+    const double total = watch.lap();
+    cell.memory_bytes = memory.bytes();
+    const auto &record = solution->record();
+    cell.n_points = record.n_points;
+    cell.n_dofs = record.n_dofs;
+    cell.nonzeros = record.nonzeros;
+    cell.warnings = record.warnings;
+    for (const auto &[phase, seconds] : record.seconds)
+      cell.seconds[phase] = {seconds, seconds, seconds};
+    cell.seconds["total"] = {total, total, total};
+    if (!with_errors)
+      return;
+    cell.quantities = record.quantities;
+    const auto &quadrature = quadrature_of(level);
+    watch.lap();
+    cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
+    const double evaluation = watch.lap();
+    cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
+    if (series_directory.empty())
+      return;
+    for (const auto &line : problem_->sample_lines()) {
+      const std::string file = series_file(cell, line.name);
+      reports::write_file_atomically(series_directory / file, series_text(line, *solution, problem_->exact()));
+      cell.series.push_back({line.name, file});
+    }
+  }
+
+  /// Matrix entries from the mean number of neighbours; a sparse LU in two dimensions fills like
+  /// N log N and works like N^1.5; the constants were measured on one core of a 2 GHz server.
+  Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const override {
+    Estimate e;
+    e.n_points = static_cast<double>(problem_->cloud(level).positions.size());
+    const auto &p = request.parameters;
+    if (p.has("element")) {
+      const double degree = p.text("element").back() - '0';
+      e.n_dofs = 2 * e.n_points * degree * degree;
+      const double nonzeros = e.n_dofs * 2 * (2 * degree + 1) * (degree + 1);
+      e.bytes = 12 * nonzeros + 8 * 30 * e.n_dofs * std::log2(e.n_dofs + 2);
+      e.seconds = 5e-6 * e.n_dofs * (1 + std::sqrt(e.n_dofs) / 2000);
+      return e;
+    }
+    e.n_dofs = 2 * e.n_points;
+    if (!p.has("order"))
+      return e;
+    const double order = static_cast<double>(p.integer("order"));
+    const double support = (p.has("support") ? p.real("support") : order + 2) * p.real("smoothing_length");
+    const bool weak = p.has("quadrature_points");
+    const double reach = weak ? support + p.real("test_radius") : support;
+    const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
+    const double nonzeros = e.n_dofs * 2 * neighbours;
+    e.bytes = 16 * nonzeros + 16 * nonzeros * std::log2(e.n_points + 2);
+    const double quadrature = weak ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2) : 1;
+    e.seconds = e.n_points * quadrature * neighbours * 4e-9 + 1e-9 * nonzeros * std::sqrt(e.n_dofs);
+    return e;
+  }
+
+private:
+  const methods::Method &find(const std::string &name) const {
+    for (const auto &method : methods_)
+      if (method.description.name == name)
+        return method;
+    throw std::invalid_argument(fmt::format("no method '{}'", name));
+  }
+
+  const problems::Quadrature &quadrature_of(const scene::Level &level) const {
+    const auto found = quadratures_.find(level.text);
+    return found != quadratures_.end() ? found->second : (quadratures_[level.text] = problem_->quadrature(level));
+  }
+
+  std::unique_ptr<problems::PlaneProblem> problem_;
+  const std::vector<methods::Method> &methods_;
+  mutable std::map<std::string, problems::Quadrature> quadratures_;
+};
+
+} // namespace
+
+std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
+                                                  const std::vector<methods::Method> &methods) {
+  return std::make_unique<PlaneExperiment>(std::move(problem), methods);
+}
+
+} // namespace comparisons::study

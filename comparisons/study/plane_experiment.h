@@ -1,0 +1,18 @@
+#pragma once
+
+#include "comparisons/methods/method_table.h"
+#include "comparisons/problems/plane_problem.h"
+#include "comparisons/study/experiment.h"
+
+#include <memory>
+#include <vector>
+
+namespace comparisons::study {
+
+/// Plane elastostatics: every method of the table on the same statement, errors on one quadrature a
+/// level, displacement and stress along the problem's sample lines.
+/// @param methods kept by reference
+std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
+                                                  const std::vector<methods::Method> &methods);
+
+} // namespace comparisons::study

@@ -1,0 +1,176 @@
+#include "comparisons/study/run_scene.h"
+
+#include "comparisons/metrics/machine.h"
+#include "comparisons/reports/json.h"
+#include "comparisons/study/cell_run.h"
+#include "comparisons/study/isolation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+namespace comparisons::study {
+
+namespace {
+
+/// A cell that takes longer is run once.
+constexpr double long_cell_seconds = 10;
+
+/// A cell with the seconds of its repeats.
+struct Measured {
+  CellTask task;
+  reports::Cell cell;
+  std::map<std::string, std::vector<double>> samples;
+  bool done = false; ///< no further repeats
+};
+
+/// The cells of a scene in the order of the tables: variant, method, level.
+class SceneRun {
+public:
+  SceneRun(const scene::Scene &scene, const Catalogue &catalogue, const RunOptions &options)
+      : scene_(scene), options_(options) {
+    if (scene.study.has("max_seconds"))
+      limits_.seconds = scene.study.real("max_seconds");
+    if (scene.study.has("max_memory"))
+      limits_.memory_bytes = scene.study.integer("max_memory");
+    isolate_ = options.isolate || limits_.seconds || limits_.memory_bytes;
+    const auto &benchmark = find_benchmark(catalogue, scene.benchmark);
+    for (const auto &variant : scene.problems) {
+      experiments_.push_back(benchmark.make_experiment(scene, variant, catalogue.methods));
+      for (const auto &request : scene.methods)
+        for (const auto &level : request.levels)
+          measured_.push_back({{&scene, &variant, experiments_.back().get(), &request, &level}, {}, {}});
+    }
+  }
+
+  std::vector<reports::Cell> run() {
+    metrics::use_threads(static_cast<int>(scene_.study.integer("threads")));
+    const auto repeats = static_cast<int>(scene_.study.integer("repeats"));
+    std::size_t n_finished = 0;
+    for (auto &measured : measured_) {
+      if (stopped())
+        break;
+      report_progress(measured, n_finished);
+      first_run(measured);
+      if (stopped())
+        break; // the cell was cut short
+      ++n_finished;
+    }
+    for (int repeat = 0; repeat < repeats && !stopped(); ++repeat)
+      for (std::size_t i = 0; i < n_finished && !stopped(); ++i)
+        repeat_run(measured_[i]);
+    std::vector<reports::Cell> cells;
+    for (std::size_t i = 0; i < n_finished; ++i) {
+      summarise(measured_[i]);
+      cells.push_back(std::move(measured_[i].cell));
+    }
+    return cells;
+  }
+
+private:
+  bool stopped() const { return options_.stop_requested && options_.stop_requested(); }
+
+  void report_progress(const Measured &measured, std::size_t n_finished) const {
+    if (options_.progress)
+      options_.progress(fmt::format("{}/{}: cell {} of {}: {} {}", scene_.benchmark, scene_.name, n_finished + 1,
+                                    measured_.size(), measured.task.request->label, measured.task.level->text));
+  }
+
+  reports::Cell run_once(const CellTask &task, bool with_errors) {
+    const std::filesystem::path series =
+        with_errors && options_.write_series ? options_.directory : std::filesystem::path();
+    if (!isolate_)
+      return run_cell(task, with_errors, series);
+    const auto outcome = run_isolated(
+        [&] {
+          reports::Results results;
+          results.cells.push_back(run_cell(task, with_errors, series));
+          return reports::json_text(results);
+        },
+        limits_, options_.stop_requested);
+    using Kind = IsolatedOutcome::Kind;
+    if (outcome.kind == Kind::finished)
+      return reports::parse_results(outcome.payload).cells.at(0);
+    reports::Cell cell = describe_cell(task);
+    const bool limit = outcome.kind == Kind::out_of_time || outcome.kind == Kind::out_of_memory;
+    cell.status = limit ? reports::Status::limit : reports::Status::failed;
+    cell.reason = outcome.reason;
+    return cell;
+  }
+
+  void first_run(Measured &measured) {
+    if (!measured.task.request->refused.empty()) {
+      measured.cell = describe_cell(measured.task);
+      measured.cell.status = reports::Status::refused;
+      measured.cell.reason = measured.task.request->refused;
+    } else
+      measured.cell = run_once(measured.task, true);
+    measured.cell.expected = measured.task.request->expect == reports::to_text(measured.cell.status);
+    const auto total = measured.cell.seconds.find("total");
+    // The first run is the warm-up, unless the cell is long: then it is the only one.
+    if (measured.cell.status != reports::Status::ok || total == measured.cell.seconds.end())
+      measured.done = true;
+    else if (total->second.median > long_cell_seconds) {
+      measured.done = true;
+      measured.cell.warnings.push_back(fmt::format("longer than {} s: timed once, without warm-up", long_cell_seconds));
+      keep_seconds(measured, measured.cell);
+    }
+  }
+
+  void repeat_run(Measured &measured) {
+    if (measured.done)
+      return;
+    const auto cell = run_once(measured.task, false);
+    if (cell.status != reports::Status::ok) {
+      if (stopped())
+        return;
+      measured.cell.warnings.push_back("a repeat ended with '" + cell.reason + "'");
+      measured.done = true;
+      return;
+    }
+    keep_seconds(measured, cell);
+    measured.cell.memory_bytes = std::max(measured.cell.memory_bytes, cell.memory_bytes);
+  }
+
+  static void keep_seconds(Measured &measured, const reports::Cell &cell) {
+    for (const auto &[phase, spread] : cell.seconds)
+      if (phase != "evaluation")
+        measured.samples[phase].push_back(spread.median);
+  }
+
+  static void summarise(Measured &measured) {
+    for (auto &[phase, samples] : measured.samples) {
+      std::sort(samples.begin(), samples.end());
+      const std::size_t n = samples.size();
+      const double median = n % 2 == 1 ? samples[n / 2] : 0.5 * (samples[n / 2 - 1] + samples[n / 2]);
+      measured.cell.seconds[phase] = {median, samples.front(), samples.back()};
+    }
+    const auto total = measured.samples.find("total");
+    measured.cell.repeats = total == measured.samples.end() ? 0 : static_cast<int>(total->second.size());
+  }
+
+  const scene::Scene &scene_;
+  const RunOptions &options_;
+  Limits limits_;
+  bool isolate_ = false;
+  std::vector<std::unique_ptr<Experiment>> experiments_;
+  std::vector<Measured> measured_;
+};
+
+} // namespace
+
+std::vector<reports::Cell> run_scene(const scene::Scene &scene, const Catalogue &catalogue, const RunOptions &options) {
+  return SceneRun(scene, catalogue, options).run();
+}
+
+const Benchmark &find_benchmark(const Catalogue &catalogue, const std::string &name) {
+  for (const auto &benchmark : catalogue.benchmarks)
+    if (benchmark.description.name == name)
+      return benchmark;
+  throw std::invalid_argument(fmt::format("no benchmark '{}'", name));
+}
+
+} // namespace comparisons::study
