@@ -8,8 +8,7 @@
 namespace meshless::basis {
 
 template <int dim>
-void PointBatch<dim>::assign(std::span<const cloud::Point<dim>> points)
-{
+void PointBatch<dim>::assign(std::span<const cloud::Point<dim>> points) {
   size_ = points.size();
   stride_ = linear_algebra::padded(size_);
   for (int k = 0; k < dim; ++k) {
@@ -20,8 +19,7 @@ void PointBatch<dim>::assign(std::span<const cloud::Point<dim>> points)
 }
 
 template <int dim>
-void PointBatch<dim>::assign(const std::array<std::span<const double>, dim> &coordinates)
-{
+void PointBatch<dim>::assign(const std::array<std::span<const double>, dim> &coordinates) {
   size_ = coordinates[0].size();
   stride_ = linear_algebra::padded(size_);
   for (int k = 0; k < dim; ++k) {
@@ -31,8 +29,7 @@ void PointBatch<dim>::assign(const std::array<std::span<const double>, dim> &coo
 }
 
 template <int dim>
-cloud::Point<dim> PointBatch<dim>::point(std::size_t i) const
-{
+cloud::Point<dim> PointBatch<dim>::point(std::size_t i) const {
   cloud::Point<dim> result;
   for (int k = 0; k < dim; ++k)
     result[k] = coordinates_[k][i];
@@ -40,8 +37,7 @@ cloud::Point<dim> PointBatch<dim>::point(std::size_t i) const
 }
 
 template <int dim>
-void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates)
-{
+void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates) {
   const std::size_t n = candidates.size();
   inverse_h_.resize(n);
   for (int k = 0; k < dim; ++k)
@@ -59,8 +55,7 @@ void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::sp
 }
 
 template <int dim>
-void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride)
-{
+void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride) {
   n_candidates_ = n_candidates;
   stride_ = stride;
   std::size_t n_slots = 0;
@@ -76,27 +71,26 @@ void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candid
 }
 
 template <int dim>
-void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis)
-{
+void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis) {
   if (regularity.smallest_pivot_ratio > singular_pivot_ratio)
     return;
   const std::size_t n = regularity.n_neighbours;
+  const std::string count = n < basis.n_terms()
+                                ? fmt::format("too few neighbours, {} for {} terms: they", n, basis.n_terms())
+                                : fmt::format("its {} neighbours", n);
   const std::string cause =
-      n < basis.n_terms()
-          ? fmt::format("too few neighbours: {} for {} terms", n, basis.n_terms())
-          : fmt::format("its {} neighbours do not lie on {} distinct lines of particles in every direction, as "
-                        "order {} needs",
-                        n, basis.order() + 1, basis.order());
+      fmt::format("{} do not lie on {} distinct lines of particles in every direction, as order {} needs", count,
+                  basis.order() + 1, basis.order());
   throw SingularMomentMatrix(fmt::format(
       "singular moment matrix at ({:.6g}): {} (smallest pivot ratio {:.1e}); enlarge the support (now {} h), lower "
       "the order, or add particles there",
       fmt::join(points.point(regularity.worst_point), ", "), cause, regularity.smallest_pivot_ratio, basis.support()));
 }
 
-#define INSTANTIATE(dim)                                                                                     \
-  template class PointBatch<dim>;                                                                            \
-  template class CandidateBatch<dim>;                                                                        \
-  template class ShapeFunctionValues<dim>;                                                                   \
+#define INSTANTIATE(dim)                                                                                               \
+  template class PointBatch<dim>;                                                                                      \
+  template class CandidateBatch<dim>;                                                                                  \
+  template class ShapeFunctionValues<dim>;                                                                             \
   template void require_regular<dim>(const Regularity &, const PointBatch<dim> &, const ShapeFunctions<dim> &);
 INSTANTIATE(1)
 INSTANTIATE(2)
