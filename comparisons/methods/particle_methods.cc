@@ -59,7 +59,7 @@ std::vector<Declaration> basis_declarations(int lowest_order) {
       {.name = "kernel_parameter", .range = positive, .meaning = "the kernel's own parameter, such as the decay a"},
       {.name = "support",
        .range = {.lower = 1, .upper = 20, .lower_open = true},
-       .meaning = "rho, radius of the kernel's support in units of h; order + 2 if absent"},
+       .meaning = "rho, support of the kernel in units of h; if absent, order + 2 or the kernel's own"},
       {.name = "smoothing_length",
        .range = positive,
        .default_value = 1.0,
@@ -118,14 +118,34 @@ std::vector<Declaration> strong_declarations() {
   return keys;
 }
 
-double support_of(const Parameters &parameters) {
-  return parameters.has("support") ? parameters.real("support") : static_cast<double>(parameters.integer("order")) + 2;
+/// The kernel of a method. The support is rho where the scene gives it, order + 2 for a kernel with a free
+/// cut-off, else the kernel's own.
+meshless::kernels::Kernel kernel_of(const Parameters &parameters) {
+  const std::string &name = parameters.text("kernel");
+  std::optional<double> support;
+  if (parameters.has("support"))
+    support = parameters.real("support");
+  for (const auto &kernel : meshless::kernels::kernel_table())
+    if (!support && kernel.name == name && kernel.free_support)
+      support = static_cast<double>(parameters.integer("order")) + 2;
+  std::optional<double> parameter;
+  if (parameters.has("kernel_parameter"))
+    parameter = parameters.real("kernel_parameter");
+  return meshless::kernels::make_kernel(name, support, parameter);
 }
 
 /// Errors that can be told before any computing.
 void check_support(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
   const auto &method = context.method;
-  const double reach = support_of(method) * method.real("smoothing_length");
+  double support = 0;
+  try {
+    support = meshless::kernels::support_of(kernel_of(method));
+  } catch (const std::invalid_argument &error) {
+    const char *key = method.is_given("support") ? "support" : "kernel_parameter";
+    diagnostics.error(method.location(key), context.method_key + "." + key, error.what());
+    return;
+  }
+  const double reach = support * method.real("smoothing_length");
   const auto order = method.integer("order");
   if (method.text("smoothing_rule") == "given" && reach < static_cast<double>(order))
     diagnostics.error(method.location(method.is_given("support") ? "support" : "smoothing_length"),
@@ -242,11 +262,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   meshless::linear_algebra::Stopwatch watch;
   const auto particles = make_particles(request.cloud(), parameters);
   const double points_seconds = watch.lap();
-  std::optional<double> kernel_parameter;
-  if (parameters.has("kernel_parameter"))
-    kernel_parameter = parameters.real("kernel_parameter");
-  const auto kernel =
-      meshless::kernels::make_kernel(parameters.text("kernel"), support_of(parameters), kernel_parameter);
+  const auto kernel = kernel_of(parameters);
   std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis =
       meshless::basis::make_basis<2>(parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel);
   const auto problem = translate(request.statement);

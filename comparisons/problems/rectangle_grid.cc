@@ -1,34 +1,13 @@
 #include "comparisons/problems/rectangle_grid.h"
 
+#include "comparisons/problems/random.h"
+
 #include "meshless/linear_algebra/gauss_legendre.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace comparisons::problems {
-
-namespace {
-
-/// SplitMix64 (Steele, Lea & Flood 2014): the same numbers everywhere, unlike the distributions of
-/// the standard library.
-class Random {
-public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// Uniform in [-1, 1).
-  double symmetric() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1.0p-52 - 1;
-  }
-
-private:
-  std::uint64_t state_;
-};
-
-} // namespace
 
 RectangleGrid::RectangleGrid(const Point2 &lower, const Point2 &upper, std::array<int, 2> n, double jitter,
                              std::uint64_t seed)

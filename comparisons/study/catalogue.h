@@ -18,6 +18,9 @@ struct Benchmark {
   std::function<std::unique_ptr<Experiment>(const scene::Scene &, const scene::ProblemVariant &,
                                             const std::vector<methods::Method> &)>
       make_experiment;
+  /// Called with all cells of a scene once they are measured, to add what needs several levels, such as
+  /// slopes; may be empty.
+  std::function<void(std::vector<reports::Cell> &)> finish = {};
 };
 
 /// All methods and benchmarks of the program; passed as an argument, so that tests can add their own.

@@ -163,7 +163,10 @@ private:
 } // namespace
 
 std::vector<reports::Cell> run_scene(const scene::Scene &scene, const Catalogue &catalogue, const RunOptions &options) {
-  return SceneRun(scene, catalogue, options).run();
+  auto cells = SceneRun(scene, catalogue, options).run();
+  if (const auto &finish = find_benchmark(catalogue, scene.benchmark).finish)
+    finish(cells);
+  return cells;
 }
 
 const Benchmark &find_benchmark(const Catalogue &catalogue, const std::string &name) {
