@@ -30,6 +30,17 @@ std::vector<std::string> kernel_names() {
   return names;
 }
 
+/// A test function must vanish where the local subdomain ends and be smooth inside: the quadrature of
+/// subdomains does not stop where a spline's pieces meet.
+std::vector<std::string> test_function_names() {
+  std::vector<std::string> names;
+  for (const auto &kernel : meshless::kernels::kernel_table())
+    if (kernel.edge_smoothness >= 0 &&
+        meshless::kernels::breaks_of(meshless::kernels::make_kernel(kernel.name, {})).empty())
+      names.emplace_back(kernel.name);
+  return names;
+}
+
 std::vector<std::string> basis_names() {
   std::vector<std::string> names;
   for (const auto &basis : meshless::basis::basis_table())
@@ -78,7 +89,7 @@ std::vector<Declaration> weak_declarations() {
   keys.insert(keys.end(),
               {{.name = "test_function",
                 .type = Type::choice,
-                .choices = kernel_names(),
+                .choices = test_function_names(),
                 .default_value = "gauss",
                 .meaning = "test function of the local weak form"},
                {.name = "test_radius",
@@ -132,6 +143,17 @@ meshless::kernels::Kernel kernel_of(const Parameters &parameters) {
   if (parameters.has("kernel_parameter"))
     parameter = parameters.real("kernel_parameter");
   return meshless::kernels::make_kernel(name, support, parameter);
+}
+
+/// The Gauss function of (3.15) has its cut-off at the radius of the subdomain; kernels with a support of
+/// their own are stretched to it.
+meshless::kernels::Kernel test_function_of(const Parameters &parameters) {
+  const std::string &name = parameters.text("test_function");
+  std::optional<double> support;
+  for (const auto &kernel : meshless::kernels::kernel_table())
+    if (kernel.name == name && kernel.free_support)
+      support = parameters.real("test_radius");
+  return meshless::kernels::make_kernel(name, support);
 }
 
 /// Errors that can be told before any computing.
@@ -275,8 +297,8 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
     elasticity::weak_form::Parameters weak;
     weak.derivatives =
         form == Form::weak1 ? elasticity::DerivativeRule::direct : elasticity::DerivativeRule::differentiated;
-    weak.test_function =
-        meshless::kernels::make_kernel(parameters.text("test_function"), parameters.real("test_radius"));
+    weak.test_radius = parameters.real("test_radius");
+    weak.test_function = test_function_of(parameters);
     weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
     weak.penalty = parameters.real("penalty");
     weak.characteristic_length = request.statement.characteristic_length;

@@ -35,7 +35,8 @@ public:
     Stopwatch watch;
     centre_ = particles_.position(particle);
     h_ = particles_.smoothing_length(particle);
-    const double radius = kernels::support_of(parameters_.test_function) * h_;
+    const double radius = parameters_.test_radius * h_;
+    test_length_ = radius / kernels::support_of(parameters_.test_function);
     rule_.build(centre_, radius, quadrature_);
     seconds.assembly += watch.lap();
     search_.collect(centre_, radius, candidates_);
@@ -64,7 +65,7 @@ private:
     if (with_gradient)
       for (auto &component : test_gradient_)
         component.resize(n);
-    const double inverse_h = 1 / h_;
+    const double inverse_h = 1 / test_length_;
     std::visit(
         [&](const auto &kernel) {
           for (std::size_t q = 0; q < n; ++q) {
@@ -265,6 +266,8 @@ private:
 
   Point2 centre_{};
   double h_ = 0;
+  /// Length that the test function's argument is measured in.
+  double test_length_ = 0;
   domain::SubdomainQuadrature quadrature_;
   std::vector<cloud::Index> candidates_;
   basis::CandidateBatch<2> candidate_batch_;

@@ -11,8 +11,10 @@ namespace meshless::elasticity::weak_form {
 /// Parameters of the meshless local Petrov-Galerkin method (MLPG), Batra & Zhang 2008, section 3.2.
 struct Parameters {
   DerivativeRule derivatives = DerivativeRule::direct; ///< direct: weak1, differentiated: weak2
-  /// Test function W_I with its radius as support, in units of h_I.
+  /// Test function W_I; it must vanish at the edge of its support.
   kernels::Kernel test_function = kernels::Gauss(1.0);
+  /// Radius of the local subdomain in units of h_I: the kernel is stretched so that its support ends there.
+  double test_radius = 1;
   /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part.
   int quadrature_points = 10;
   /// alpha / (E0 / L): the penalty on essential conditions over plane modulus and length.
