@@ -120,9 +120,9 @@ inline std::vector<Real> row(const Matrix &matrix, Eigen::Index i, Real factor) 
 
 inline double scaled_condition(const Matrix &C) {
   const Vector d = C.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = (d.asDiagonal() * C * d.asDiagonal()).eval().cast<double>();
-  const auto values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  return values.maxCoeff() / std::abs(values.minCoeff()); // its sign is rounding beyond 1e16
+  const Matrix scaled = d.asDiagonal() * C * d.asDiagonal();
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  return static_cast<double>(values.maxCoeff() / values.minCoeff());
 }
 
 } // namespace detail

@@ -16,16 +16,20 @@ using namespace meshless::linear_algebra;
 using refusal::mentions;
 using refusal::message_of;
 
+/// long double: more exact than what is tested, and no SIMD code, at which g++ 12 warns when sanitizing.
+using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-SparseRows rows_of(const Eigen::MatrixXd &dense) {
+SparseRows rows_of(const Matrix &dense) {
   SparseRows rows(dense.cols());
   std::vector<std::int64_t> columns(static_cast<std::size_t>(dense.cols()));
   std::vector<double> values(columns.size());
   for (Eigen::Index i = 0; i < dense.rows(); ++i) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
       columns[j] = static_cast<std::int64_t>(j);
-      values[j] = dense(i, static_cast<Eigen::Index>(j));
+      values[j] = static_cast<double>(dense(i, static_cast<Eigen::Index>(j)));
     }
     rows.append_row(columns, values);
   }
@@ -33,9 +37,9 @@ SparseRows rows_of(const Eigen::MatrixXd &dense) {
 }
 
 /// Unsymmetric, a fraction of the entries filled, row i multiplied by up to 10^decades.
-Eigen::MatrixXd random_matrix(int n, double fill, double decades, std::uint64_t seed) {
+Matrix random_matrix(int n, double fill, double decades, std::uint64_t seed) {
   sample_clouds::Uniform random(seed);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  Matrix matrix = Matrix::Zero(n, n);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j)
       if (random() < fill)
@@ -43,15 +47,25 @@ Eigen::MatrixXd random_matrix(int n, double fill, double decades, std::uint64_t 
     matrix(i, (3 * i + 1) % n) += 1; // n is no multiple of 3: a permutation, so that no row is empty
     matrix.row(i) *= std::pow(10, decades * random());
   }
-  return matrix;
+  return matrix.unaryExpr([](long double x) { return static_cast<long double>(static_cast<double>(x)); });
 }
 
-Eigen::VectorXd random_vector(int n, std::uint64_t seed) {
+std::vector<double> random_vector(int n, std::uint64_t seed) {
   sample_clouds::Uniform random(seed);
-  return Eigen::VectorXd::NullaryExpr(n, [&] { return random.between(-1, 1); });
+  std::vector<double> vector(static_cast<std::size_t>(n));
+  for (double &x : vector)
+    x = random.between(-1, 1);
+  return vector;
 }
 
-std::span<const double> span_of(const Eigen::VectorXd &v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+Vector dense_of(const std::vector<double> &v) {
+  return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())).cast<long double>();
+}
+
+double largest(const Vector &v) { return static_cast<double>(v.cwiseAbs().maxCoeff()); }
+
+/// Largest sum of absolute entries of a row.
+double norm(const Matrix &m) { return static_cast<double>(m.cwiseAbs().rowwise().sum().maxCoeff()); }
 
 TEST(SparseRows, keep_entries_that_are_not_zero) {
   SparseRows rows(5);
@@ -71,10 +85,10 @@ TEST(SparseRows, keep_entries_that_are_not_zero) {
 TEST(SparseRows, multiply_as_a_dense_matrix) {
   const auto dense = random_matrix(50, .2, 3, 1);
   const auto x = random_vector(50, 2);
-  Eigen::VectorXd y(50);
-  rows_of(dense).multiply(span_of(x), {y.data(), 50});
+  std::vector<double> y(50);
+  rows_of(dense).multiply(x, y);
   // Sums of at most 50 products.
-  EXPECT_LT((y - dense * x).cwiseAbs().maxCoeff(), 50 * epsilon * dense.cwiseAbs().rowwise().sum().maxCoeff());
+  EXPECT_LT(largest(dense_of(y) - dense * dense_of(x)), 50 * epsilon * norm(dense));
 }
 
 TEST(SparseRows, equilibrate_to_a_largest_entry_of_one) {
@@ -83,10 +97,10 @@ TEST(SparseRows, equilibrate_to_a_largest_entry_of_one) {
   const auto divisors = rows.equilibrate_rows();
   for (std::size_t i = 0; i < divisors.size(); ++i) {
     EXPECT_EQ(divisors[i], dense.row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff());
-    double largest = 0;
+    double largest_left = 0;
     for (auto k = rows.offsets()[i]; k < rows.offsets()[i + 1]; ++k)
-      largest = std::max(largest, std::abs(rows.values()[static_cast<std::size_t>(k)]));
-    EXPECT_EQ(largest, 1);
+      largest_left = std::max(largest_left, std::abs(rows.values()[static_cast<std::size_t>(k)]));
+    EXPECT_EQ(largest_left, 1);
   }
 }
 
@@ -104,21 +118,19 @@ TEST(SparseRows, name_a_row_that_is_zero_or_not_finite) {
 }
 
 TEST(SparseLu, agrees_with_dense_lu) {
-  for (const int n : {1, 2, 5, 20, 100, 301})
+  for (const int n : {1, 2, 5, 20, 100, 151})
     for (const double fill : {.02, .2, 1.}) {
       const auto dense = random_matrix(n, fill, 2, static_cast<std::uint64_t>(n));
       const auto b = random_vector(n, 7);
-      const Eigen::FullPivLU<Eigen::MatrixXd> lu(dense);
-      const Eigen::VectorXd expected = lu.solve(b);
+      const Eigen::PartialPivLU<Matrix> lu(dense);
+      const Vector expected = lu.solve(dense_of(b));
       const auto rows = rows_of(dense);
-      const auto result = solve_lu(rows, span_of(b));
-      const Eigen::Map<const Eigen::VectorXd> x(result.solution.data(), n);
-      // Both are backward stable: they differ by eps times the condition number, with a factor n.
-      const double condition =
-          dense.inverse().cwiseAbs().rowwise().sum().maxCoeff() * dense.cwiseAbs().rowwise().sum().maxCoeff();
-      EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), n * epsilon * condition * expected.cwiseAbs().maxCoeff())
+      const auto result = solve_lu(rows, b);
+      // Backward stable: eps times the condition number, with a factor n.
+      const double condition = norm(lu.inverse()) * norm(dense);
+      EXPECT_LT(largest(dense_of(result.solution) - expected), n * epsilon * condition * largest(expected))
           << n << " " << fill;
-      EXPECT_LT(backward_error(rows, result.solution, span_of(b)), 4 * epsilon);
+      EXPECT_LT(backward_error(rows, result.solution, b), 4 * epsilon);
       EXPECT_GT(result.reciprocal_condition, 0);
     }
 }
