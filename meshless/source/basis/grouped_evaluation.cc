@@ -19,8 +19,7 @@ struct SortedCells {
 
 template <int dim>
 SortedCells<dim> sort_into_cells(std::span<const cloud::Point<dim>> points, const cloud::Point<dim> &origin,
-                                 double cell_size)
-{
+                                 double cell_size) {
   SortedCells<dim> sorted;
   sorted.cell.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -40,8 +39,7 @@ SortedCells<dim> sort_into_cells(std::span<const cloud::Point<dim>> points, cons
 
 template <int dim>
 void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
-                                   const Visitor &visitor) const
-{
+                                   const Visitor &visitor) const {
   const auto &particles = search_->particles();
   const auto h = particles.smoothing_lengths();
   const double mean = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
@@ -79,7 +77,7 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
     candidate_batch.assign(particles, candidates);
     const auto regularity = basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
     require_regular(regularity, batch, *basis_);
-    visitor(Group{std::span(sorted.order).subspan(begin, end - begin), candidates, values});
+    visitor(Group{std::span(sorted.order).subspan(begin, end - begin), candidates, values, regularity});
     begin = end;
   }
 }

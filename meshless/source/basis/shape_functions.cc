@@ -40,6 +40,7 @@ template <int dim>
 void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates) {
   const std::size_t n = candidates.size();
   inverse_h_.resize(n);
+  volumes_.resize(particles.has_volumes() ? n : 0);
   for (int k = 0; k < dim; ++k)
     coordinates_[k].resize(n);
   double sum = 0;
@@ -49,6 +50,8 @@ void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::sp
       coordinates_[k][j] = particles.position(particle)[k];
     const double h = particles.smoothing_length(particle);
     inverse_h_[j] = 1 / h;
+    if (particles.has_volumes())
+      volumes_[j] = particles.volumes()[particle];
     sum += h;
   }
   scale_ = n == 0 ? 1 : sum / static_cast<double>(n);

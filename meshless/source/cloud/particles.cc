@@ -38,14 +38,20 @@ void check_positions(std::span<const Point<dim>> positions) {
 } // namespace
 
 template <int dim>
-Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths)
-    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)) {
+Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths,
+                          std::vector<double> volumes)
+    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)), volumes_(std::move(volumes)) {
   if (positions_.empty())
     throw std::invalid_argument("a cloud needs at least one particle");
   if (positions_.size() != smoothing_lengths_.size())
     throw std::invalid_argument(
         fmt::format("{} positions but {} smoothing lengths", positions_.size(), smoothing_lengths_.size()));
+  if (!volumes_.empty() && positions_.size() != volumes_.size())
+    throw std::invalid_argument(fmt::format("{} positions but {} volumes", positions_.size(), volumes_.size()));
   check_positions<dim>(positions_);
+  for (std::size_t i = 0; i < volumes_.size(); ++i)
+    if (!(volumes_[i] > 0) || !std::isfinite(volumes_[i]))
+      throw std::invalid_argument(fmt::format("particle {}: its volume {} is not positive", i, volumes_[i]));
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size(); ++i) {
     const double h = smoothing_lengths_[i];

@@ -19,14 +19,13 @@ public:
     std::span<const std::size_t> points;
     std::span<const cloud::Index> candidates;
     const ShapeFunctionValues<dim> &values;
+    const Regularity &regularity;
   };
   using Visitor = std::function<void(const Group &)>;
 
   /// Both are kept by reference.
   GroupedEvaluation(const ShapeFunctions<dim> &basis, const cloud::CandidateSearch<dim> &search)
-      : basis_(&basis), search_(&search)
-  {
-  }
+      : basis_(&basis), search_(&search) {}
 
   /// Visits every point once, in batches of at most 64.
   /// @throws SingularMomentMatrix where the basis does not exist

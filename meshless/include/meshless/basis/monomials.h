@@ -12,8 +12,7 @@ namespace meshless::basis {
 /// factors 1/2 of the Taylor series.
 template <int dim, int order>
 class Monomials {
-  static constexpr std::size_t binomial(std::size_t n, std::size_t k)
-  {
+  static constexpr std::size_t binomial(std::size_t n, std::size_t k) {
     std::size_t result = 1;
     for (std::size_t i = 1; i <= k; ++i)
       result = result * (n - k + i) / i;
@@ -31,8 +30,7 @@ public:
     std::array<int, size> axis{};
   };
 
-  static constexpr Table make_table()
-  {
+  static constexpr Table make_table() {
     Table table;
     std::size_t n = 1;
     std::size_t previous_begin = 0;
@@ -55,8 +53,7 @@ public:
   static constexpr Table table = make_table();
 
   /// Index of the term with these exponents.
-  static constexpr std::size_t index_of(const Exponents &exponents)
-  {
+  static constexpr std::size_t index_of(const Exponents &exponents) {
     for (std::size_t t = 0; t < size; ++t)
       if (table.exponents[t] == exponents)
         return t;
@@ -64,8 +61,7 @@ public:
   }
 
 private:
-  static constexpr int last_axis(const Exponents &exponents)
-  {
+  static constexpr int last_axis(const Exponents &exponents) {
     int last = 0;
     for (int k = 0; k < dim; ++k)
       if (exponents[k] > 0)
@@ -76,8 +72,7 @@ private:
 public:
   /// Values of all terms at the offset d (scaled by h), each from its parent by one product.
   template <typename T>
-  static void evaluate(const std::array<T, dim> &d, std::array<T, size> &values)
-  {
+  static void evaluate(const std::array<T, dim> &d, std::array<T, size> &values) {
     values[0] = T(1);
 #pragma GCC unroll 64
     for (std::size_t t = 1; t < size; ++t)
@@ -86,8 +81,7 @@ public:
 };
 
 /// Number of terms of degree <= order in dim variables.
-constexpr std::size_t n_monomials(int dim, int order)
-{
+constexpr std::size_t n_monomials(int dim, int order) {
   std::size_t result = 1;
   for (int k = 1; k <= dim; ++k)
     result = result * static_cast<std::size_t>(order + k) / static_cast<std::size_t>(k);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "meshless/basis/dense_lu.h"
+#include "meshless/basis/point_neighbours.h"
+#include "meshless/basis/taylor_projection.h"
 #include "meshless/cloud/neighbour_lists.h"
 #include "meshless/cloud/particles.h"
 #include "meshless/linear_algebra/pack.h"
@@ -42,21 +45,25 @@ public:
   const double *coordinate(int k) const { return coordinates_[k].data(); }
   /// 1 / h of every candidate, 1/m.
   const double *inverse_h() const { return inverse_h_.data(); }
+  /// Volume of every candidate, m^dim, or null if the cloud has none.
+  const double *volumes() const { return volumes_.empty() ? nullptr : volumes_.data(); }
   /// Mean smoothing length: the scale of the monomials, m.
   double scale() const { return scale_; }
 
 private:
   std::array<std::vector<double>, dim> coordinates_;
   std::vector<double> inverse_h_;
+  std::vector<double> volumes_;
   double scale_ = 1;
 };
 
 /// Which shape functions are asked for; what is not asked for is not computed.
 struct Wanted {
   bool value = false;
-  /// First derivatives, found directly (without differentiating the shape function).
+  /// First derivatives as the basis defines them: found directly by SSPH and MSPH, those of the shape
+  /// function by RKPM and MLS.
   bool gradient = false;
-  /// Second derivatives, found directly.
+  /// Second derivatives, likewise.
   bool hessian = false;
   /// First derivatives of the shape function itself (weak2).
   bool differentiated_gradient = false;
@@ -81,8 +88,7 @@ public:
   const double *differentiated_gradient(int k, std::size_t j) const { return row(1 + dim + n_hessian + k, j); }
 
   double *row(int quantity, std::size_t j) { return data_.data() + (slot_[quantity] * n_candidates_ + j) * stride_; }
-  const double *row(int quantity, std::size_t j) const
-  {
+  const double *row(int quantity, std::size_t j) const {
     return data_.data() + (slot_[quantity] * n_candidates_ + j) * stride_;
   }
   bool has(int quantity) const { return slot_[quantity] != absent; }
@@ -105,11 +111,22 @@ struct Regularity {
   std::size_t worst_point = 0;
   /// Candidates inside the support at that point.
   std::size_t n_neighbours = 0;
+  /// Points whose moment matrix was not positive definite (a kernel with negative values); they were
+  /// solved by LU with complete pivoting.
+  std::size_t n_indefinite = 0;
 };
 
 /// Pivot ratios below this mean a moment matrix that is singular to rounding: a regular one with
 /// this ratio would leave no more than three digits.
 inline constexpr double singular_pivot_ratio = 1e-12;
+
+/// How the derivatives at particles follow from the shape functions.
+struct OperatorRule {
+  /// First derivatives of B - B(x_i) instead of B: exact for constants.
+  bool subtract_own_value = false;
+  /// Second derivatives by applying the first twice.
+  bool reiterate = false;
+};
 
 /// Meshless shape functions: the one interface of all bases.
 ///
@@ -122,7 +139,12 @@ public:
   struct Workspace {
     std::vector<double> weights;
     std::vector<double> slopes;
+    std::vector<double> curvatures;
     std::vector<cloud::Index> active;
+    PointNeighbours<dim> neighbours;
+    std::vector<DenseLu> factors;
+    std::array<TaylorProjection, 2> projections;
+    std::vector<double> numbers;
   };
 
   virtual ~ShapeFunctions() = default;
@@ -130,13 +152,20 @@ public:
   /// Shape functions of all candidates at all points of the batch. Singular lanes give
   /// meaningless values and are reported in the result; see `require_regular`.
   virtual Regularity evaluate(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates,
-                              const Wanted &wanted, ShapeFunctionValues<dim> &values,
-                              Workspace &workspace) const = 0;
+                              const Wanted &wanted, ShapeFunctionValues<dim> &values, Workspace &workspace) const = 0;
 
-  /// Radius of the support in units of h.
+  /// Radius of the support in units of h: candidates must be given up to there.
   virtual double support() const = 0;
-  /// Polynomials up to this degree are reproduced.
+  /// Degree m of the Taylor series that the basis rests on.
   virtual int order() const = 0;
+  /// Highest degree of the polynomials whose derivatives of this order (0, 1, 2) are exact at particles;
+  /// -1 if not even those of constants are.
+  virtual int reproduced_degree(int derivative) const {
+    (void)derivative;
+    return order();
+  }
+  /// How derivatives at particles come about (see DerivativeOperators).
+  virtual OperatorRule operator_rule() const { return {}; }
   /// Terms of the basis: the least number of neighbours.
   virtual std::size_t n_terms() const = 0;
 };

@@ -19,12 +19,17 @@ namespace meshless::basis {
 /// where K_(k) is the row of the direct first derivative: it is what remains of the terms from
 /// dp/dx, as e_1^T (C^-1 N_k + N_k^T C^-1) - e_1^T C^-1 N_k with p,k = -N_k p.
 ///
+/// With `options.volumes` W_J is V_J G / h_J^dim W, as in Zhang & Batra 2008, (3.3): m / rho and the normalised
+/// kernel. On irregular clouds that is another basis.
+///
 /// One point a SIMD lane; only the distinct moments are summed; the moment matrix is factorised
-/// as L D L^T without pivoting (it is symmetric and, for a positive kernel, positive definite).
+/// as L D L^T without pivoting (it is symmetric and, for a positive kernel, positive definite), for a kernel
+/// with negative values where needed by LU with complete pivoting.
 ///
 /// @param order m = 1 ... 4
 /// @throws std::invalid_argument for another order
 template <int dim>
-std::unique_ptr<ShapeFunctions<dim>> make_ssph(int order, const kernels::Kernel &kernel);
+std::unique_ptr<ShapeFunctions<dim>> make_ssph(int order, const kernels::Kernel &kernel,
+                                               const BasisOptions &options = {});
 
 } // namespace meshless::basis

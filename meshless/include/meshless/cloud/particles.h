@@ -19,7 +19,7 @@ inline double distance_squared(const Point<dim> &a, const Point<dim> &b) {
   return sum;
 }
 
-/// A cloud of particles: positions and smoothing lengths, checked once.
+/// A cloud of particles: positions, smoothing lengths and, if a basis weighs with them, volumes; checked once.
 template <int dim>
 class Particles {
 public:
@@ -27,15 +27,19 @@ public:
 
   /// @param positions in metres
   /// @param smoothing_lengths h of every particle in metres, as many as positions, all > 0
+  /// @param volumes m / rho of every particle in m^dim, as many as positions, all > 0; or none
   /// @throws std::invalid_argument naming the particle for a non-finite position, a smoothing
-  ///   length that is not positive, or two particles at the same place
-  Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths);
+  ///   length or volume that is not positive, or two particles at the same place
+  Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths, std::vector<double> volumes = {});
 
   std::size_t size() const { return positions_.size(); }
   const Point<dim> &position(std::size_t i) const { return positions_[i]; }
   double smoothing_length(std::size_t i) const { return smoothing_lengths_[i]; }
   std::span<const Point<dim>> positions() const { return positions_; }
   std::span<const double> smoothing_lengths() const { return smoothing_lengths_; }
+  bool has_volumes() const { return !volumes_.empty(); }
+  /// m / rho in m^dim; empty if the cloud has none.
+  std::span<const double> volumes() const { return volumes_; }
   double largest_smoothing_length() const { return largest_smoothing_length_; }
   /// True if all smoothing lengths are equal to rounding.
   bool uniform() const { return uniform_; }
@@ -43,6 +47,7 @@ public:
 private:
   std::vector<Point<dim>> positions_;
   std::vector<double> smoothing_lengths_;
+  std::vector<double> volumes_;
   double largest_smoothing_length_ = 0;
   bool uniform_ = true;
 };
