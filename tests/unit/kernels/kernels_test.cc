@@ -142,14 +142,15 @@ TEST(KernelTable, makes_what_it_lists) {
   for (std::size_t i = 0; i < kernel_table().size(); ++i) {
     const auto &entry = kernel_table()[i];
     EXPECT_FALSE(entry.meaning.empty());
-    const auto kernel = make_kernel(entry.name, 2.5);
+    const double support = entry.free_support ? 2.5 : entry.support;
+    const auto kernel = make_kernel(entry.name, support);
     EXPECT_EQ(kernel.index(), i);
-    EXPECT_EQ(support_of(kernel), 2.5);
+    EXPECT_EQ(support_of(kernel), support);
     if (entry.parameter.empty())
       continue;
     const auto value = [](const Kernel &k) { return std::visit([](const auto &each) { return each.value(1.3); }, k); };
-    EXPECT_EQ(value(kernel), value(make_kernel(entry.name, 2.5, entry.default_parameter)));
-    EXPECT_NE(value(kernel), value(make_kernel(entry.name, 2.5, entry.default_parameter + 1)));
+    EXPECT_EQ(value(kernel), value(make_kernel(entry.name, support, entry.default_parameter)));
+    EXPECT_NE(value(kernel), value(make_kernel(entry.name, support, entry.default_parameter + 1)));
   }
 }
 
