@@ -4,10 +4,14 @@
 #include "comparisons/program/describe_command.h"
 #include "comparisons/program/options.h"
 #include "comparisons/program/run_command.h"
+#include "comparisons/scene/diagnostics.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 namespace comparisons::program {
@@ -17,6 +21,18 @@ namespace {
 std::string version_text() {
   const auto program = metrics::describe_program();
   return fmt::format("petrov {} (commit {}, {} build)", program.version, program.commit, program.build_type);
+}
+
+/// The limits of the scene's own keys, with a message that says them.
+CLI::Validator whole_number(int lowest, int highest) {
+  return {[lowest, highest](const std::string &text) {
+            int value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good =
+                error == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest;
+            return good ? std::string() : fmt::format("'{}' is no whole number from {} to {}", text, lowest, highest);
+          },
+          fmt::format("{}...{}", lowest, highest)};
 }
 
 void add_common_options(CLI::App &command, CommonOptions &options) {
@@ -29,8 +45,8 @@ void add_common_options(CLI::App &command, CommonOptions &options) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--threads", options.threads, "threads of every method")->check(CLI::PositiveNumber);
-  command.add_option("--repeats", options.repeats, "timed runs of every cell")->check(CLI::PositiveNumber);
+  command.add_option("--threads", options.threads, "threads of every method")->check(whole_number(1, 1024));
+  command.add_option("--repeats", options.repeats, "timed runs of every cell")->check(whole_number(1, 1000));
   command.add_flag("--quiet", options.quiet, "no progress and no messages but errors");
   command.add_flag("--isolate", options.isolate, "run every cell in a process of its own");
 }
@@ -43,6 +59,23 @@ std::optional<int> parse(CLI::App &app, int argc, const char *const *argv) {
   } catch (const CLI::ParseError &error) {
     return app.exit(error) == 0 ? all_as_expected : usage_error;
   }
+}
+
+/// The first word must be a command, or an option such as --help; says what is wrong otherwise.
+bool names_a_command(const CLI::App &app, int argc, const char *const *argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.starts_with("-"))
+    return true;
+  std::vector<std::string> commands;
+  for (const auto *command : app.get_subcommands({}))
+    commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), word) != commands.end())
+    return true;
+  const auto near = scene::nearest_name(word, commands);
+  fmt::print(stderr, "error: {}; the commands are {}{}\nRun with --help for more information.\n",
+             argc > 1 ? "no command " + scene::in_quotes(word) : "no command is given", fmt::join(commands, ", "),
+             near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
+  return false;
 }
 
 /// Runs a command; what it throws is a defect or the system's failure, and is told as such.
@@ -112,6 +145,8 @@ int run_program(int argc, const char *const *argv, const study::Catalogue &catal
   add_common_options(*report, options);
   report->callback([&] { code = guarded([&] { return rebuild_report(name, options); }); });
 
+  if (!names_a_command(app, argc, argv))
+    return usage_error;
   const auto ended = parse(app, argc, argv);
   return ended.value_or(code);
 }

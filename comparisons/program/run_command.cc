@@ -37,6 +37,8 @@ void print_diagnostics(const scene::Diagnostics &diagnostics) {
     fmt::print(stderr, "{}", scene::to_text(diagnostics));
 }
 
+void print_diagnostic(const scene::Diagnostic &diagnostic) { fmt::print(stderr, "{}\n", scene::to_text(diagnostic)); }
+
 /// Reads all scenes; nothing if one has an error (all findings are printed).
 std::optional<std::vector<scene::Scene>> read_scenes(const std::vector<fs::path> &files, const CommonOptions &options,
                                                      const study::Catalogue &catalogue) {
@@ -115,7 +117,9 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     if (!plan.scenes.empty())
       fs::create_directories(plan.directory / "series");
   } catch (const std::exception &error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    const auto place = plan.scenes.empty() ? scene::Location() : plan.scenes.front().output.location("directory");
+    print_diagnostic({scene::Severity::error, place, "output.directory", error.what(),
+                      "name a folder that can be written, here or with --output"});
     return invalid_scene;
   }
   int threads = 1;
@@ -149,6 +153,11 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     settle_published(plan, results);
 
   const auto files = reports::write_reports(results, plan.directory, plan.formats, "results");
+  if (results.published.empty()) {
+    // The ledger of an earlier run in this folder would pass for this one's.
+    std::error_code ignored;
+    fs::remove(plan.directory / "results_published.csv", ignored);
+  }
   fmt::print("{}", reports::text_report(results));
   std::fflush(stdout);
   std::string names;

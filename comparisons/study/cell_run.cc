@@ -56,7 +56,12 @@ reports::Cell run_cell(const CellTask &task, bool with_errors, const std::filesy
   } catch (const std::bad_alloc &) {
     fail(cell, reports::Status::limit, "out of memory");
   } catch (const std::exception &error) {
-    fail(cell, reports::Status::failed, error.what());
+    // The sparse solvers catch what their C libraries could not allocate, and say so in words.
+    const std::string reason = error.what();
+    const bool memory = reason.find("out of memory") != std::string::npos;
+    fail(cell, memory ? reports::Status::limit : reports::Status::failed, reason);
+  } catch (...) {
+    fail(cell, reports::Status::failed, "the method threw an exception that is none of the standard library");
   }
   return cell;
 }

@@ -10,6 +10,7 @@
 #include <new>
 #include <poll.h>
 #include <stdexcept>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,7 +49,11 @@ bool write_all(int file, const std::string &text) {
   return true;
 }
 
-[[noreturn]] void run_child(const std::function<std::string()> &work, const Limits &limits, int output) {
+[[noreturn]] void run_child(const std::function<std::string()> &work, const Limits &limits, int output, pid_t parent) {
+  // A parent that is killed can end nobody any more.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent)
+    _exit(1);
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   const rlimit no_core{0, 0};
@@ -97,6 +102,7 @@ IsolatedOutcome run_isolated(const std::function<std::string()> &work, const Lim
   int ends[2];
   if (pipe(ends) != 0)
     throw std::runtime_error(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) {
     close(ends[0]);
@@ -105,7 +111,7 @@ IsolatedOutcome run_isolated(const std::function<std::string()> &work, const Lim
   }
   if (child == 0) {
     close(ends[0]);
-    run_child(work, limits, ends[1]);
+    run_child(work, limits, ends[1], parent);
   }
   close(ends[1]);
   IsolatedOutcome outcome;
@@ -118,9 +124,12 @@ IsolatedOutcome run_isolated(const std::function<std::string()> &work, const Lim
   }
   if (ended)
     return *ended;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !outcome.payload.empty())
     outcome.kind = IsolatedOutcome::Kind::finished;
-  else if (WIFEXITED(status) && WEXITSTATUS(status) == memory_exit) {
+  else if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    outcome.kind = IsolatedOutcome::Kind::crashed;
+    outcome.reason = "the process ended without a result";
+  } else if (WIFEXITED(status) && WEXITSTATUS(status) == memory_exit) {
     outcome.kind = IsolatedOutcome::Kind::out_of_memory;
     outcome.reason = limits.memory_bytes ? fmt::format("needs more than max_memory = {} bytes", *limits.memory_bytes)
                                          : "out of memory";

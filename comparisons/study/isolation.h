@@ -30,8 +30,8 @@ struct IsolatedOutcome {
 /// Runs `work` in a child process and returns its text, so that a crash, a hang or exhausted memory
 /// inside a library ends this work alone.
 ///
-/// The memory limit is on what the child allocates beyond what it inherits. The child ignores
-/// SIGINT; the parent ends it when `stop_requested` becomes true.
+/// The work's text must not be empty. The memory limit is on what the child allocates beyond what it inherits. The
+/// child ignores SIGINT; the parent ends it when `stop_requested` becomes true.
 IsolatedOutcome run_isolated(const std::function<std::string()> &work, const Limits &limits,
                              const std::function<bool()> &stop_requested);
 

@@ -55,12 +55,18 @@ public:
     meshless::linear_algebra::Stopwatch watch;
     const auto solution = method.solve(solve_request);
     const double total = watch.lap();
+    if (!solution)
+      throw std::runtime_error("the method returned no solution");
     cell.memory_bytes = memory.bytes();
     const auto &record = solution->record();
     cell.n_points = record.n_points;
     cell.n_dofs = record.n_dofs;
     cell.nonzeros = record.nonzeros;
     cell.warnings = record.warnings;
+    const auto condition = record.quantities.find("reciprocal_condition");
+    if (condition != record.quantities.end() && condition->second < 1e-12)
+      cell.warnings.push_back(fmt::format(
+          "the linear system is nearly singular: the reciprocal of its condition is {:.1e}", condition->second));
     for (const auto &[phase, seconds] : record.seconds)
       cell.seconds[phase] = {seconds, seconds, seconds};
     cell.seconds["total"] = {total, total, total};

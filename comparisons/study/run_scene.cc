@@ -92,8 +92,12 @@ private:
         },
         limits_, options_.stop_requested);
     using Kind = IsolatedOutcome::Kind;
-    if (outcome.kind == Kind::finished)
-      return reports::parse_results(outcome.payload).cells.at(0);
+    if (outcome.kind == Kind::finished) {
+      auto cell = reports::parse_results(outcome.payload).cells.at(0);
+      if (cell.status == reports::Status::limit && limits_.memory_bytes)
+        cell.reason = fmt::format("needs more than max_memory = {} bytes: {}", *limits_.memory_bytes, cell.reason);
+      return cell;
+    }
     reports::Cell cell = describe_cell(task);
     const bool limit = outcome.kind == Kind::out_of_time || outcome.kind == Kind::out_of_memory;
     cell.status = limit ? reports::Status::limit : reports::Status::failed;

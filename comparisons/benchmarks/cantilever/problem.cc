@@ -109,6 +109,9 @@ void check(const scene::CheckContext &context, scene::Diagnostics &diagnostics) 
     diagnostics.error(context.problem.location("solution"), "problem.solution",
                       "the trigonometric solution needs its body force, which the scene does not call for",
                       "add body_force = true (and elasticity = true) to [effects]");
+  if (context.problem.real("force") == 0)
+    diagnostics.error(context.problem.location("force"), "problem.force",
+                      "0 makes the exact solution zero, and errors are relative to it", "use force = \"1 MN/m\"");
   const double length = context.problem.real("length");
   const double width = context.problem.real("width");
   const auto &level = context.level;

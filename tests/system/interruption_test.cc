@@ -1,0 +1,195 @@
+// Interrupting and repeating a run in one folder: what is named as a result is always whole.
+
+#include "comparisons/reports/json.h"
+#include "system/program_process.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <thread>
+
+namespace {
+
+using namespace system_tests;
+using namespace comparisons;
+using std::chrono::milliseconds;
+
+/// Number of fields of every row (RFC 4180); a last row without its line end counts as 0.
+std::vector<std::size_t> fields_of_rows(const std::string &csv) {
+  std::vector<std::size_t> rows;
+  std::size_t fields = 1;
+  bool quoted = false;
+  for (const char c : csv) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      ++fields;
+    else if (c == '\n' && !quoted) {
+      rows.push_back(fields);
+      fields = 1;
+    }
+  }
+  if (quoted || !csv.ends_with('\n'))
+    rows.push_back(0);
+  return rows;
+}
+
+void expect_whole(const fs::path &file) {
+  const auto name = file.filename().string();
+  const std::string text = contents(file);
+  if (name.starts_with(".")) // a name of its own, as a killed process leaves it
+    return;
+  const auto ending = file.extension();
+  if (ending == ".json") {
+    EXPECT_NO_THROW(reports::parse_results(text)) << file;
+  } else if (ending == ".csv") {
+    const auto rows = fields_of_rows(text);
+    ASSERT_GT(rows.size(), 1u) << file;
+    for (const auto n : rows)
+      ASSERT_EQ(n, rows.front()) << file;
+  } else {
+    EXPECT_TRUE(ending == ".txt" || ending == ".md") << "an unknown file " << file;
+    EXPECT_TRUE(text.ends_with('\n')) << file;
+  }
+}
+
+void expect_whole_folder(const fs::path &folder) {
+  if (!fs::exists(folder))
+    return;
+  for (const auto &entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      expect_whole(entry.path());
+}
+
+std::size_t n_temporary_files(const fs::path &folder) {
+  std::size_t n = 0;
+  for (const auto &entry : fs::recursive_directory_iterator(folder))
+    n += entry.path().extension() == ".tmp" ? 1 : 0;
+  return n;
+}
+
+/// When the folder of curves last got a file; the earliest time if there is none.
+fs::file_time_type last_curve(const fs::path &folder) {
+  std::error_code none;
+  const auto time = fs::last_write_time(folder / "series", none);
+  return none ? fs::file_time_type::min() : time;
+}
+
+/// Waits until the run has begun: it has made, or written in, its folder of curves.
+void wait_for_run(const fs::path &folder, fs::file_time_type before = fs::file_time_type::min()) {
+  for (int i = 0; i < 4000 && last_curve(folder) == before; ++i)
+    std::this_thread::sleep_for(milliseconds(5));
+  ASSERT_NE(last_curve(folder), before);
+}
+
+const std::vector<std::string> comparison{"compare", "cantilever", "--output", "out", "--repeats", "1"};
+
+TEST(Interruption, never_leaves_a_half_written_file) {
+  const Folder folder;
+  const auto out = folder / "out";
+  // Ctrl-C: from the very start to the middle of the cells.
+  for (const int after : {5, 150, 400, 900}) {
+    SCOPED_TRACE("interrupted after " + std::to_string(after) + " ms");
+    const auto before = last_curve(out);
+    Process process(comparison, folder.path());
+    if (after > 100)
+      wait_for_run(out, before);
+    std::this_thread::sleep_for(milliseconds(after));
+    process.send(SIGINT);
+    const auto ended = process.wait();
+    expect_whole_folder(out);
+    if (after < 100) {
+      // The handler may not be in place yet; then there is nothing to write either.
+      EXPECT_TRUE(ended.exit_code == 130 || ended.signal == SIGINT) << ended.exit_code;
+      continue;
+    }
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_NE(ended.out.find("INTERRUPTED"), std::string::npos);
+    const auto results = reports::read_results(out / "results.json");
+    EXPECT_TRUE(results.interrupted);
+    EXPECT_TRUE(results.published.empty()) << "a part of the cells must not be judged";
+    for (const auto &cell : results.cells)
+      EXPECT_TRUE(cell.expected) << cell.label << ": " << cell.reason;
+    EXPECT_NE(contents(out / "results.txt").find("INTERRUPTED"), std::string::npos);
+    EXPECT_EQ(n_temporary_files(out), 0u);
+  }
+  { // Killed: nothing can be tidied up, but no result is half.
+    const auto before = last_curve(out);
+    Process process(comparison, folder.path());
+    wait_for_run(out, before);
+    std::this_thread::sleep_for(milliseconds(250));
+    process.send(SIGKILL);
+    EXPECT_EQ(process.wait().signal, SIGKILL);
+    expect_whole_folder(out);
+  }
+  // Another run in the same folder sets all right.
+  auto again = comparison;
+  again.insert(again.end(), {"--set", "study.levels=[\"16x4\"]", "--quiet"});
+  const auto ended = run_program(again, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err
+                                << ended.out.substr(ended.out.size() - std::min<std::size_t>(2000, ended.out.size()));
+  expect_whole_folder(out);
+  const auto results = reports::read_results(out / "results.json");
+  EXPECT_FALSE(results.interrupted);
+  EXPECT_FALSE(results.published.empty());
+  EXPECT_EQ(contents(out / "results.txt").find("INTERRUPTED"), std::string::npos);
+  EXPECT_EQ(ended.out, contents(out / "results.txt"));
+  EXPECT_EQ(ended.err, "");
+}
+
+const std::string long_scene = "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\n"
+                               "quadrature_points = 64\n[study]\nlevels = [\"61x13\"]\nrepeats = 100\n";
+
+TEST(Interruption, ends_a_cell_in_a_process_of_its_own_at_once) {
+  const Folder folder;
+  folder.write("scene.toml", long_scene);
+  Process process({"run", "scene.toml", "--isolate"}, folder.path());
+  wait_for_run(folder / "out");
+  std::this_thread::sleep_for(milliseconds(300));
+  const auto begin = std::chrono::steady_clock::now();
+  process.send(SIGINT);
+  const auto ended = process.wait();
+  // The cell takes some five seconds and would be repeated a hundred times.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  EXPECT_EQ(ended.exit_code, 130);
+  EXPECT_TRUE(process.left_nobody(1));
+}
+
+TEST(Interruption, a_killed_program_takes_its_cell_along) {
+  const Folder folder;
+  folder.write("scene.toml", long_scene);
+  Process process({"run", "scene.toml", "--isolate"}, folder.path());
+  wait_for_run(folder / "out");
+  std::this_thread::sleep_for(milliseconds(300));
+  process.send_to_program(SIGKILL);
+  EXPECT_EQ(process.wait().signal, SIGKILL);
+  EXPECT_TRUE(process.left_nobody(2)) << "the cell's process goes on without anyone to end it";
+}
+
+TEST(Interruption, a_thousand_repeats_end_between_two) {
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"strong\"\n[study]\n"
+                             "levels = [\"31x7\"]\nrepeats = 1000\n");
+  Process process({"run", "scene.toml"}, folder.path());
+  wait_for_run(folder / "out");
+  std::this_thread::sleep_for(milliseconds(500));
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait().exit_code, 130);
+  const auto results = reports::read_results(folder / "out/results.json");
+  ASSERT_EQ(results.cells.size(), 1u);
+  EXPECT_EQ(results.cells[0].status, reports::Status::ok);
+  EXPECT_GE(results.cells[0].repeats, 1);
+  EXPECT_LT(results.cells[0].repeats, 1000);
+}
+
+TEST(Interruption, results_of_an_earlier_run_do_not_stay_beside_new_ones) {
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"strong\"\n[study]\n"
+                             "levels = [\"16x4\"]\n");
+  fs::create_directory(folder / "out");
+  folder.write("out/results_published.csv", "from,an,earlier,run\n");
+  EXPECT_EQ(run_program({"run", "scene.toml"}, folder.path()).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "out/results_published.csv"));
+}
+
+} // namespace
