@@ -40,11 +40,11 @@ void add_common_options(CLI::App &command, CommonOptions &options) {
       ->type_name("DIR");
   command.add_option("--format", options.formats, "formats of the reports, separated by commas")
       ->delimiter(',')
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->allow_extra_args(false); // else it would take the scene that follows
   command.add_option("--set", options.sets, "override a key of the scene, e.g. material.nu=0.4999; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   command.add_option("--threads", options.threads, "threads of every method")->check(whole_number(1, 1024));
   command.add_option("--repeats", options.repeats, "timed runs of every cell")->check(whole_number(1, 1000));
   command.add_flag("--quiet", options.quiet, "no progress and no messages but errors");

@@ -166,6 +166,25 @@ TEST(Commands, quiet_and_formats) {
   EXPECT_TRUE(has(contents(folder / "ein Ordner/ü/results.json"), "Ünï 漢字 😀"));
 }
 
+TEST(Commands, options_stand_before_or_after_the_scene) {
+  const Folder folder;
+  folder.write("scene.toml", small_scene);
+  const std::vector<std::string> words{
+      "--set",  "study.levels=[\"8x3\"]", "--set", "material.nu=0.2", "--format", "json", "--format", "csv,text",
+      "--quiet"};
+  for (const bool before : {true, false}) {
+    std::vector<std::string> arguments = words;
+    arguments.insert(before ? arguments.end() : arguments.begin(), "scene.toml");
+    arguments.insert(arguments.begin(), "run");
+    const auto ended = run_here(arguments, folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << before << ": " << ended.err;
+    for (const auto *name : {"results.json", "results.csv", "results.txt"})
+      EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+    EXPECT_EQ(reports::read_results(folder / "out/results.json").cells.at(0).level, "8x3");
+    fs::remove_all(folder / "out");
+  }
+}
+
 TEST(Commands, a_method_may_have_levels_of_its_own) {
   const Folder folder;
   folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"strong\"\n[[method]]\n"
