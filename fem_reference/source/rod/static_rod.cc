@@ -86,16 +86,41 @@ void add_load(const Discretisation &discretisation, const Field &body_force, dea
   }
 }
 
+/// f - K u cell by cell from the strain. It comes from differences of nodal values within a cell, so that the large
+/// common part of u, which costs the residual of the assembled matrix its digits, drops out.
+dealii::Vector<double> residual_by_cells(const Rod &rod, const Discretisation &discretisation,
+                                         const dealii::Vector<double> &nodal, const dealii::Vector<double> &load) {
+  const dealii::QGauss<1> rule(discretisation.element.degree + 1);
+  dealii::FEValues<1> values(discretisation.element, rule, dealii::update_gradients | dealii::update_JxW_values);
+  const unsigned n_nodes = discretisation.element.n_dofs_per_cell();
+  std::vector<dealii::types::global_dof_index> nodes(n_nodes);
+  dealii::Vector<double> residual = load;
+  const double scale = rod.youngs_modulus / discretisation.half_length;
+  for (const auto &cell : discretisation.numbering.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(nodes);
+    for (unsigned q = 0; q < rule.size(); ++q) {
+      double strain = 0;
+      for (unsigned a = 1; a < n_nodes; ++a)
+        strain += (nodal[nodes[a]] - nodal[nodes[0]]) * values.shape_grad(a, q)[0];
+      for (unsigned a = 0; a < n_nodes; ++a)
+        residual[nodes[a]] -= scale * strain * values.shape_grad(a, q)[0] * values.JxW(q);
+    }
+  }
+  for (const int side : {0, 1})
+    if (rod.ends[side].kind == EndKind::displacement)
+      residual[discretisation.end_node(side)] = 0;
+  return residual;
+}
+
 /// Rows and columns of prescribed nodes become those of the identity, scaled like their neighbours.
 void prescribe(const Rod &rod, const Discretisation &discretisation, dealii::SparseMatrix<double> &matrix,
                dealii::Vector<double> &load) {
   for (const int side : {0, 1}) {
     const auto &end = rod.ends[side];
     const unsigned node = discretisation.end_node(side);
-    if (end.kind == EndKind::traction) {
-      load[node] += end.value;
+    if (end.kind == EndKind::traction)
       continue;
-    }
     const double diagonal = matrix.diag_element(node);
     for (auto entry = matrix.begin(node); entry != matrix.end(node); ++entry) {
       const auto other = entry->column();
@@ -160,6 +185,10 @@ Solution solve(const Rod &rod, const Options &options) {
   dealii::Vector<double> load(discretisation.numbering.n_dofs());
   if (rod.body_force)
     add_load(discretisation, rod.body_force, load);
+  for (const int side : {0, 1})
+    if (rod.ends[side].kind == EndKind::traction)
+      load[discretisation.end_node(side)] += rod.ends[side].value;
+  const dealii::Vector<double> forces = load;
   prescribe(rod, discretisation, matrix, load);
   discretisation.seconds.assembly = watch.lap();
 
@@ -167,6 +196,9 @@ Solution solve(const Rod &rod, const Options &options) {
   try {
     factors.initialize(matrix);
     factors.vmult(implementation->nodal, load);
+    dealii::Vector<double> correction(load.size());
+    factors.vmult(correction, residual_by_cells(rod, discretisation, implementation->nodal, forces));
+    implementation->nodal += correction;
   } catch (const dealii::ExceptionBase &error) {
     throw SolveFailure(fmt::format("the linear system of the rod could not be solved: {}", error.what()));
   }

@@ -82,7 +82,8 @@ private:
 
 /// Static displacement by conforming elements with nodes at the Gauss-Lobatto points; the load by
 /// degree + 3 Gauss points a cell. With such a load linear elements are exact at their vertices
-/// but for the quadrature, whatever the load (Tong 1969).
+/// but for the quadrature, whatever the load (Tong 1969). One step of iterative refinement with a residual computed
+/// cell by cell from the strain keeps the rounding error near that of the displacement itself.
 /// @throws InvalidInput for vertices that do not increase, a degree other than 1 to 3, a material that is
 ///   not positive, or a rod that may move freely; SolveFailure if the solution is not finite
 Solution solve(const Rod &rod, const Options &options = {});
