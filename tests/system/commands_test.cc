@@ -1,6 +1,7 @@
 // The commands as a user types them, their texts and exit codes.
 
 #include "comparisons/reports/json.h"
+#include "comparisons/scene/reader.h"
 #include "system/program_here.h"
 
 #include <gtest/gtest.h>
@@ -111,8 +112,34 @@ TEST(Commands, the_scene_of_the_readme_is_valid) {
   const auto check = run_here({"check", "scene.toml"}, folder.path());
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_EQ(check.err, "");
-  const auto changed = run_here({"check", "scene.toml", "--set", "material.nu=0.4999"}, folder.path());
-  EXPECT_EQ(changed.exit_code, 0) << changed.err;
+  // Its overrides, as they stand there.
+  std::size_t n_overrides = 0;
+  for (auto place = readme.find("`--set "); place != std::string::npos; place = readme.find("`--set ", place + 1)) {
+    std::string text = readme.substr(place + 7, readme.find('`', place + 1) - place - 7);
+    std::erase(text, '\''); // the shell's
+    ++n_overrides;
+    const auto changed = run_here({"check", "scene.toml", "--set", text}, folder.path());
+    EXPECT_EQ(changed.exit_code, 0) << changed.err;
+  }
+  EXPECT_GE(n_overrides, 3u);
+}
+
+TEST(Commands, the_readme_names_every_key) {
+  const std::string readme = contents(fs::path(PETROV_SOURCE_DIR) / "README.md");
+  const auto vocabulary = study::vocabulary_of(study::shipped_catalogue());
+  const auto expect_named = [&](const std::vector<scene::Declaration> &declarations) {
+    for (const auto &declaration : declarations)
+      EXPECT_TRUE(has(readme, "`" + declaration.name + "`")) << declaration.name;
+  };
+  for (const auto &method : vocabulary.methods)
+    expect_named(method.parameters);
+  for (const auto &benchmark : vocabulary.benchmarks)
+    if (benchmark.name == "cantilever") {
+      expect_named(benchmark.problem);
+      expect_named(benchmark.material);
+    }
+  expect_named(scene::study_declarations());
+  expect_named(scene::output_declarations());
 }
 
 TEST(Commands, run_and_report) {
