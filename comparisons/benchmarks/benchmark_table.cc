@@ -1,6 +1,7 @@
 #include "comparisons/benchmarks/benchmark_table.h"
 
 #include "comparisons/benchmarks/cantilever/problem.h"
+#include "comparisons/benchmarks/function_approximation/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
 namespace comparisons::benchmarks {
@@ -18,6 +19,8 @@ study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make
 
 } // namespace
 
-std::vector<study::Benchmark> benchmark_table() { return {plane(cantilever::description(), cantilever::make_problem)}; }
+std::vector<study::Benchmark> benchmark_table() {
+  return {plane(cantilever::description(), cantilever::make_problem), function_approximation::benchmark()};
+}
 
 } // namespace comparisons::benchmarks

@@ -41,20 +41,27 @@ std::vector<std::string> test_function_names() {
   return names;
 }
 
-std::vector<std::string> basis_names() {
+enum class Form { strong, weak1, weak2 };
+
+/// Bases that a form can use: in two dimensions, without volumes (a scene's clouds have none), with the
+/// derivatives that it asks for.
+std::vector<std::string> basis_names(Form form) {
   std::vector<std::string> names;
-  for (const auto &basis : meshless::basis::basis_table())
-    names.emplace_back(basis.name);
+  for (const auto &basis : meshless::basis::basis_table()) {
+    const bool able = form == Form::strong ? basis.hessian_anywhere : form == Form::weak1 || basis.differentiable;
+    if (able && basis.highest_dimension >= 2 && basis.volumes == meshless::basis::VolumeUse::optional)
+      names.emplace_back(basis.name);
+  }
   return names;
 }
 
 /// Keys that every particle method has.
-std::vector<Declaration> basis_declarations(int lowest_order) {
+std::vector<Declaration> basis_declarations(Form form, int lowest_order) {
   const auto positive = scene::Range{.lower = 0, .lower_open = true};
   return {
       {.name = "basis",
        .type = Type::choice,
-       .choices = basis_names(),
+       .choices = basis_names(form),
        .default_value = "ssph",
        .meaning = "how shape functions are made"},
       {.name = "order",
@@ -84,8 +91,8 @@ std::vector<Declaration> basis_declarations(int lowest_order) {
   };
 }
 
-std::vector<Declaration> weak_declarations() {
-  auto keys = basis_declarations(1);
+std::vector<Declaration> weak_declarations(Form form) {
+  auto keys = basis_declarations(form, 1);
   keys.insert(keys.end(),
               {{.name = "test_function",
                 .type = Type::choice,
@@ -114,7 +121,7 @@ std::vector<Declaration> weak_declarations() {
 }
 
 std::vector<Declaration> strong_declarations() {
-  auto keys = basis_declarations(2);
+  auto keys = basis_declarations(Form::strong, 2);
   keys.insert(keys.end(),
               {{.name = "corner",
                 .type = Type::text,
@@ -277,8 +284,6 @@ private:
   elasticity::ParticleSolution solution_;
 };
 
-enum class Form { strong, weak1, weak2 };
-
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   const auto &parameters = request.parameters;
   meshless::linear_algebra::Stopwatch watch;
@@ -332,10 +337,12 @@ Method strong() {
               Form::strong);
 }
 
-Method weak1() { return make("weak1", "MLPG, derivatives found directly (3.2.1)", weak_declarations(), Form::weak1); }
+Method weak1() {
+  return make("weak1", "MLPG, derivatives found directly (3.2.1)", weak_declarations(Form::weak1), Form::weak1);
+}
 
 Method weak2() {
-  return make("weak2", "MLPG, differentiated shape functions (3.2.2)", weak_declarations(), Form::weak2);
+  return make("weak2", "MLPG, differentiated shape functions (3.2.2)", weak_declarations(Form::weak2), Form::weak2);
 }
 
 } // namespace comparisons::methods

@@ -8,14 +8,14 @@
 namespace comparisons::benchmarks::function_approximation {
 
 template <int dim>
-WeightedPoints<dim> unit_quadrature(int n_cells) {
+WeightedPoints<dim> quadrature(double begin, double end, int n_cells) {
   const auto gauss = meshless::linear_algebra::gauss_legendre(dim == 3 ? 3 : 5);
   std::vector<double> positions;
   std::vector<double> weights;
   for (int c = 0; c < n_cells; ++c)
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
-      positions.push_back((c + gauss.points[q]) / n_cells);
-      weights.push_back(gauss.weights[q] / n_cells);
+      positions.push_back(begin + (end - begin) * (c + gauss.points[q]) / n_cells);
+      weights.push_back((end - begin) * gauss.weights[q] / n_cells);
     }
   WeightedPoints<dim> rule;
   std::array<std::size_t, dim> index{};
@@ -76,7 +76,7 @@ void add_errors(const Values<dim> &computed, const Values<dim> &exact, std::span
 }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template WeightedPoints<dim> unit_quadrature<dim>(int);                                                              \
+  template WeightedPoints<dim> quadrature<dim>(double, double, int);                                                   \
   template Values<dim> exact_values<dim>(const Expression &, std::span<const std::array<double, dim>>);                \
   template void add_errors<dim>(const Values<dim> &, const Values<dim> &, std::span<const double>,                     \
                                 const std::string &, std::map<std::string, double> &);

@@ -32,9 +32,9 @@ struct WeightedPoints {
   std::vector<double> weights;
 };
 
-/// Gauss rule on the unit interval, square or cube: n_cells cells an axis, five points each (three in 3D).
+/// Gauss rule on [begin, end]^dim: n_cells cells an axis, five points each (three in 3D).
 template <int dim>
-WeightedPoints<dim> unit_quadrature(int n_cells);
+WeightedPoints<dim> quadrature(double begin, double end, int n_cells);
 
 /// The expression and its derivatives at points.
 template <int dim>
