@@ -17,6 +17,8 @@ public:
 
   int order() const override { return 2; }
   std::size_t n_terms() const override { return corrected_ ? 4 : 3; }
+  /// The third moment of the corrected kernel vanishes: its second derivative holds for cubics too.
+  int reproduced_degree(int derivative) const override { return corrected_ && derivative == 2 ? 3 : 2; }
 
 private:
   void check_wanted(const Wanted &wanted) const override {

@@ -20,8 +20,8 @@ std::unique_ptr<ShapeFunctions<1>> make_modified_fpm(const kernels::Kernel &kern
 
 /// Second-order FPM, section 4: as the modified one with the corrected kernel K = C W (39), C = a s^3 + b s + c
 /// (40), whose zeroth moment is 1 and whose first and third vanish (42), so that f'' is of second order
-/// at the ends too. K' is that in the source variable, C' included, a, b, c frozen.
-/// At least four neighbours; a support cut short (2h for a Gaussian of h = spacing) spoils it.
+/// at the ends too; at particles it is exact for cubics. K' is that in the source variable, C' included, a, b, c
+/// frozen. At least four neighbours; a support cut short (2h for a Gaussian of h = spacing) spoils it.
 std::unique_ptr<ShapeFunctions<1>> make_fpm2(const kernels::Kernel &kernel, const BasisOptions &options = {});
 
 } // namespace meshless::basis
