@@ -19,7 +19,54 @@ std::string count(const Cell &cell, std::int64_t number) {
   return number > 0 || cell.status == Status::ok ? fmt::format("{}", number) : no_number;
 }
 
+/// Errors of a benchmark that has no displacement: its own, in the order of their names, as many as fit.
+std::vector<std::string> own_errors(const Group &group) {
+  constexpr std::size_t most = 6;
+  std::set<std::string> names;
+  for (const Cell *cell : group.cells) {
+    if (cell->errors.contains(main_error))
+      return {};
+    for (const auto &entry : cell->errors)
+      if (reportable(*cell, entry.first))
+        names.insert(entry.first);
+  }
+  std::vector<std::string> result(names.begin(), names.end());
+  result.resize(std::min(result.size(), most));
+  return result;
+}
+
+/// Long names are broken so that several columns fit.
+std::string header_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '\n');
+  return name;
+}
+
+Table own_error_table(const Group &group, const std::vector<std::string> &names) {
+  std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}, {"points"}, {"dofs"}};
+  for (const std::string &name : names)
+    columns.push_back({header_of(name)});
+  columns.insert(columns.end(), {{"total\ns"}, {"memory\nMB"}, {"status", Align::left, true}});
+  Table table(columns);
+  const bool all_ok =
+      std::all_of(group.cells.begin(), group.cells.end(), [](const Cell *cell) { return status_text(*cell) == "ok"; });
+  for (const Cell *cell : group.cells) {
+    const bool ok = cell->status == Status::ok;
+    std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number,
+                                 count(*cell, cell->n_points), count(*cell, cell->n_dofs)};
+    for (const std::string &name : names)
+      row.push_back(scientific(reportable(*cell, name)));
+    row.push_back(ok ? seconds(median_seconds(*cell, "total")) : no_number);
+    row.push_back(ok ? megabytes(cell->memory_bytes) : no_number);
+    row.push_back(all_ok ? no_number : status_text(*cell));
+    table.add_row(std::move(row));
+  }
+  table.drop_columns_without(no_number);
+  return table;
+}
+
 Table comparison_table(const Group &group) {
+  if (const auto names = own_errors(group); !names.empty())
+    return own_error_table(group, names);
   Table table({{"method", Align::left, true},
                {"level", Align::left},
                {"points"},
@@ -60,14 +107,10 @@ std::vector<std::string> reasons(const Group &group) {
   return items;
 }
 
-/// Long names are broken so that several columns fit.
-std::string header_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', '\n');
-  return name;
-}
-
-bool is_compared(const std::string &name) {
-  return std::find(compared.begin(), compared.end(), name) != compared.end();
+bool is_compared(const Group &group, const std::string &name) {
+  const auto own = own_errors(group);
+  return std::find(compared.begin(), compared.end(), name) != compared.end() ||
+         std::find(own.begin(), own.end(), name) != own.end();
 }
 
 std::vector<std::string> further_names(const Group &group) {
@@ -75,7 +118,7 @@ std::vector<std::string> further_names(const Group &group) {
   for (const Cell *cell : group.cells)
     for (const auto *map : {&cell->errors, &cell->quantities})
       for (const auto &entry : *map)
-        if (!is_compared(entry.first) && reportable(*cell, entry.first))
+        if (!is_compared(group, entry.first) && reportable(*cell, entry.first))
           names.insert(entry.first);
   return {names.begin(), names.end()};
 }

@@ -48,10 +48,10 @@ void append_header(Document &document, const Results &results, const std::vector
 
 void append_reading_aid(Document &document) {
   document.push_back(Paragraph{
-      "Errors are relative to the exact solution, on one quadrature for all methods; judge by the L2 norm. log10 E is "
-      "the "
-      "difference of two norms as printed in the paper, not an error norm. Rates are observed between a level and the "
-      "one before. Seconds are medians over the repeats; 'total' is points, neighbours, basis, assembly, solve and "
+      "Errors called relative are over the norm of the exact solution; one quadrature serves all methods; judge by the "
+      "L2 norm. log10 E is the difference of two norms as printed in the paper, not an error norm. Rates are observed "
+      "between a level and the one before. Seconds are medians over the repeats; 'total' is points, neighbours, basis, "
+      "assembly, solve and "
       "recovery, and excludes the evaluation of errors. Memory is the peak of the cell alone."});
 }
 
