@@ -217,6 +217,8 @@ TEST(Rod, InvalidScenesSayWhatIsWrong) {
   expect("method[0].basis=\"fmp\"", "fpm");
   expect("method[0].order=3", "order");
   expect("material.E=0", "greater than 0");
+  const std::string linear = findings("rod_derivative/scene", {"method[7].element=\"Q1\""});
+  EXPECT_NE(linear.find("allowed: Q2, Q3"), std::string::npos) << linear; // linear elements have no second derivative
 }
 
 // Other units and another load size are the same problem: every relative figure stays.

@@ -2,8 +2,8 @@
 
 #include "comparisons/benchmarks/rod/basis_choice.h"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 namespace comparisons::benchmarks::rod {
@@ -78,16 +78,20 @@ scene::MethodDescription collocation(std::vector<std::string> effects) {
   return method;
 }
 
-scene::MethodDescription finite_elements(bool mass, std::vector<std::string> effects) {
+scene::MethodDescription finite_elements(const ElementKeys &keys, std::vector<std::string> effects) {
+  constexpr int highest_degree = 3;
   scene::MethodDescription method;
   method.name = "fem";
   method.meaning = "finite elements by deal.II with the particles as vertices";
+  std::vector<std::string> elements;
+  for (int degree = keys.lowest_degree; degree <= highest_degree; ++degree)
+    elements.push_back(fmt::format("Q{}", degree));
   method.parameters = {{.name = "element",
                         .type = Type::choice,
-                        .choices = {"Q1", "Q2", "Q3"},
-                        .default_value = "Q1",
+                        .choices = elements,
+                        .default_value = elements.front(),
                         .meaning = "degree of the elements"}};
-  if (mass)
+  if (keys.mass)
     method.parameters.push_back({.name = "mass",
                                  .type = Type::choice,
                                  .choices = {"lumped", "consistent"},

@@ -16,8 +16,15 @@ namespace comparisons::benchmarks::rod {
 /// `support` and `volumes`.
 scene::MethodDescription collocation(std::vector<std::string> effects);
 
-/// The method `fem` with keys `element`, and with `mass` also `mass`.
-scene::MethodDescription finite_elements(bool mass, std::vector<std::string> effects);
+/// What the method `fem` has in a benchmark.
+struct ElementKeys {
+  int lowest_degree = 1;
+  /// Has the key `mass`.
+  bool mass = false;
+};
+
+/// The method `fem` with keys `element` and `mass`.
+scene::MethodDescription finite_elements(const ElementKeys &keys, std::vector<std::string> effects);
 
 /// Degree behind "Q2".
 int degree_of(const scene::Parameters &method);

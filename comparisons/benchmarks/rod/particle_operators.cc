@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace comparisons::benchmarks::rod {
 
@@ -50,6 +51,8 @@ ParticleOperators particle_operators(const scene::Parameters &method, const std:
     seconds["basis"] += watch.lap();
     return {std::move(operators.gradient.front()), std::move(operators.hessian.front())};
   } catch (const meshless::basis::SingularMomentMatrix &error) {
+    throw methods::Refused(error.what());
+  } catch (const std::invalid_argument &error) { // no second derivatives of this order or with this kernel
     throw methods::Refused(error.what());
   }
 }

@@ -116,7 +116,7 @@ private:
           for (std::size_t i = 0; i < x.size(); ++i)
             values[i] = function_.value(x[i]);
         },
-        degree);
+        rod::degree_of(method));
     seconds["assembly"] += watch.lap();
     Derivatives result{std::vector<double>(places.size()), std::vector<double>(places.size()),
                        static_cast<std::int64_t>(interpolant.n_dofs()), 0};
@@ -170,7 +170,7 @@ scene::BenchmarkDescription description() {
   benchmark.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     rod::check_arrangement(context, rod::least_particles, 100000, diagnostics);
   };
-  benchmark.methods = {rod::collocation({}), rod::finite_elements(false, {})};
+  benchmark.methods = {rod::collocation({}), rod::finite_elements({.lowest_degree = 2}, {})};
   benchmark.counts_per_level = 1;
   return benchmark;
 }

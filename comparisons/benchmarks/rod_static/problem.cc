@@ -227,7 +227,7 @@ scene::BenchmarkDescription description() {
   benchmark.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     rod::check_arrangement(context, rod::least_particles, 100000, diagnostics);
   };
-  benchmark.methods = {rod::collocation(benchmark.effects), rod::finite_elements(false, benchmark.effects)};
+  benchmark.methods = {rod::collocation(benchmark.effects), rod::finite_elements({}, benchmark.effects)};
   benchmark.counts_per_level = 1;
   return benchmark;
 }

@@ -213,7 +213,7 @@ scene::BenchmarkDescription description() {
   benchmark.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     rod::check_arrangement(context, rod::least_particles, most_particles, diagnostics);
   };
-  benchmark.methods = {rod::collocation(benchmark.effects), rod::finite_elements(true, benchmark.effects)};
+  benchmark.methods = {rod::collocation(benchmark.effects), rod::finite_elements({.mass = true}, benchmark.effects)};
   benchmark.counts_per_level = 1;
   return benchmark;
 }
