@@ -5,6 +5,7 @@
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
 #include "comparisons/benchmarks/rod_vibration/problem.h"
+#include "comparisons/benchmarks/smoothing_functions/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
 namespace comparisons::benchmarks {
@@ -23,8 +24,12 @@ study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make
 } // namespace
 
 std::vector<study::Benchmark> benchmark_table() {
-  return {plane(cantilever::description(), cantilever::make_problem), function_approximation::benchmark(),
-          rod_derivative::benchmark(), rod_static::benchmark(), rod_vibration::benchmark()};
+  return {plane(cantilever::description(), cantilever::make_problem),
+          function_approximation::benchmark(),
+          smoothing_functions::benchmark(),
+          rod_derivative::benchmark(),
+          rod_static::benchmark(),
+          rod_vibration::benchmark()};
 }
 
 } // namespace comparisons::benchmarks
