@@ -100,7 +100,7 @@ std::vector<Declaration> weak_declarations(Form form) {
                 .default_value = "gauss",
                 .meaning = "test function of the local weak form"},
                {.name = "test_radius",
-                .range = {.lower = 0, .upper = 10, .lower_open = true},
+                .range = {.lower = 0.05, .upper = 10},
                 .default_value = 1.0,
                 .meaning = "radius of the local subdomain in units of h"},
                {.name = "quadrature_points",

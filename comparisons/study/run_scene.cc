@@ -105,11 +105,30 @@ private:
     return cell;
   }
 
+  /// Why a cell is hopeless on this machine; empty if it is not. The estimate may be too high by a factor of
+  /// about 2.5, so only what exceeds that is refused beforehand.
+  static std::string too_large(const CellTask &task) {
+    const double memory = static_cast<double>(metrics::describe_machine(1).memory_bytes);
+    try {
+      const double bytes = task.experiment->estimate(*task.request, *task.level).bytes;
+      if (memory > 0 && bytes > 2.5 * memory)
+        return fmt::format("would need about {:.0f} GB, more than this machine has ({:.0f} GB); choose a coarser level",
+                           bytes / 1e9, memory / 1e9);
+    } catch (const std::exception &) {
+      // What is wrong with the level, the run itself will say.
+    }
+    return {};
+  }
+
   void first_run(Measured &measured) {
     if (!measured.task.request->refused.empty()) {
       measured.cell = describe_cell(measured.task);
       measured.cell.status = reports::Status::refused;
       measured.cell.reason = measured.task.request->refused;
+    } else if (const auto reason = too_large(measured.task); !reason.empty()) {
+      measured.cell = describe_cell(measured.task);
+      measured.cell.status = reports::Status::limit;
+      measured.cell.reason = reason;
     } else
       measured.cell = run_once(measured.task, true);
     measured.cell.expected = measured.task.request->expect == reports::to_text(measured.cell.status);

@@ -81,8 +81,8 @@ TEST_P(FemRod, vertices_are_exact_on_any_mesh) {
 }
 
 TEST_P(FemRod, refinement_keeps_rounding_small_on_a_fine_mesh) {
-  // Condition 6e6 for cubic elements: without the residual by cells 3e-10 of the displacement were lost. What remains are
-  // 640 cells with the rounding of their two values.
+  // Condition 6e6 for cubic elements: without the residual by cells 3e-10 of the displacement were lost. What remains
+  // are 640 cells with the rounding of their two values.
   const auto vertices = uniform(641);
   EXPECT_LT(displacement_error(solve(exponential_rod(vertices), {GetParam(), Mass::lumped}), vertices),
             640 * 4 * std::numeric_limits<double>::epsilon());

@@ -9,7 +9,8 @@ namespace meshless::basis {
 
 template <int dim>
 void require_volumes(const CandidateBatch<dim> &candidates) {
-  if (candidates.volumes() == nullptr)
+  // A batch without candidates has nothing to weigh; that its point has no neighbours is reported as such.
+  if (candidates.size() > 0 && candidates.volumes() == nullptr)
     throw std::invalid_argument("this basis weighs particles with their volumes m / rho, and the cloud has none: give "
                                 "volumes to the particles, or choose ssph or mls without volumes");
 }
