@@ -136,6 +136,46 @@ TEST(FunctionApproximation, Table6Slopes) {
   }
 }
 
+/// What the reader says of a scene with this body.
+std::string findings(const std::string &body) {
+  const auto catalogue = comparisons::study::shipped_catalogue();
+  const auto result =
+      comparisons::scene::read_scene_text("schema = 1\ntitle = \"t\"\nbenchmark = \"function_approximation\"\n" + body,
+                                          "scene.toml", {}, comparisons::study::vocabulary_of(catalogue));
+  EXPECT_FALSE(result.scene);
+  return to_text(result.diagnostics);
+}
+
+TEST(FunctionApproximation, RefusesByNameBeforeComputing) {
+  const std::string method = "[[method]]\nname = \"estimate\"\n";
+  const auto contains = [](const std::string &text, const std::string &part) {
+    return text.find(part) != std::string::npos;
+  };
+  const auto linear = findings(method + "basis = \"msph\"\nkernel = \"linear\"\n[study]\nlevels = [10]\n");
+  EXPECT_TRUE(contains(linear, "msph") || contains(linear, "MSPH")) << linear;
+  EXPECT_TRUE(contains(linear, "linear")) << linear;
+  const auto no_parse = findings("[problem]\nfunction = \"sin(8*(1-x)\"\n" + method + "[study]\nlevels = [10]\n");
+  EXPECT_TRUE(contains(no_parse, "scene.toml:5:")) << no_parse;
+  EXPECT_TRUE(contains(no_parse, "is no function of x")) << no_parse;
+  const auto infinite = findings("[problem]\nfunction = \"1/x\"\n" + method + "[study]\nlevels = [10]\n");
+  EXPECT_TRUE(contains(infinite, "not finite at (0,")) << infinite;
+  const auto variable = findings("[problem]\nfunction = \"x*y\"\n" + method + "[study]\nlevels = [10]\n");
+  EXPECT_TRUE(contains(variable, "is no function of x")) << variable;
+  const auto few = findings(method + "[study]\nlevels = [2]\n");
+  EXPECT_TRUE(contains(few, "at least 3")) << few;
+}
+
+TEST(FunctionApproximation, IndefiniteMomentMatricesAreNoticedAndSolved) {
+  std::size_t noticed = 0;
+  for (const auto &[name, cell] : cells_of("indefinite")) {
+    for (const auto &warning : cell.warnings)
+      noticed += warning.find("not positive definite") != std::string::npos;
+    // Reproduction of quadratics holds whatever the sign of the weights: the estimate stays one.
+    EXPECT_LT(cell.errors.at("l2_sum"), 1e-2) << name;
+  }
+  EXPECT_GT(noticed, 0u);
+}
+
 TEST(FunctionApproximation, InterpolantsConvergeAsTheorySays) {
   // Lagrange interpolation of degree p: h^(p+1), h^p, h^(p-1) in L2, H1, H2 (true integrals).
   for (int p = 1; p <= 3; ++p) {

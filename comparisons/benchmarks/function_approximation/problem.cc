@@ -98,11 +98,13 @@ public:
   }
 
   /// At the particles: there every basis has its second derivatives, some only there.
-  Values<dim> evaluate_at_particles() const {
+  /// @param n_indefinite particles whose moment matrix was not positive definite
+  Values<dim> evaluate_at_particles(std::size_t &n_indefinite) const {
     Values<dim> result;
     result.resize(particles_.size());
     const auto operators = meshless::basis::make_derivative_operators<dim>(
         *basis_, particles_, {.value = true, .gradient = true, .hessian = has_hessian_at_particles_});
+    n_indefinite = operators.n_indefinite;
     operators.value->multiply(coefficients_, result.value);
     std::vector<double> product(particles_.size());
     for (std::size_t k = 0; k < operators.gradient.size(); ++k) {
@@ -261,7 +263,11 @@ public:
     if (request.name == "fem")
       run_fem(request, level, with_errors, cell);
     else
-      run_particles(request, level, with_errors, series_directory, cell);
+      try {
+        run_particles(request, level, with_errors, series_directory, cell);
+      } catch (const meshless::basis::SingularMomentMatrix &error) {
+        throw methods::Refused(error.what());
+      }
   }
 
   study::Estimate estimate(const scene::MethodRequest &, const scene::Level &level) const override {
@@ -307,7 +313,8 @@ private:
     const double points_seconds = watch.lap();
     const ParticleEstimate<dim> estimate(arrangement, request.parameters, function_);
     const double neighbour_seconds = watch.lap();
-    const auto at_particles = estimate.evaluate_at_particles();
+    std::size_t n_indefinite = 0;
+    const auto at_particles = estimate.evaluate_at_particles(n_indefinite);
     const double basis_seconds = watch.lap();
     const double total = points_seconds + neighbour_seconds + basis_seconds;
     cell.memory_bytes = memory.bytes();
@@ -317,6 +324,11 @@ private:
          {std::pair{"points", points_seconds}, std::pair{"neighbours", neighbour_seconds},
           std::pair{"basis", basis_seconds}, std::pair{"total", total}})
       cell.seconds[phase] = {seconds, seconds, seconds};
+    if (n_indefinite > 0)
+      cell.warnings.push_back(
+          fmt::format("the moment matrix of {} particles is not positive definite, as the kernel is "
+                      "negative in places; solved by LU with complete pivoting",
+                      n_indefinite));
     if (!with_errors)
       return;
     watch.lap();

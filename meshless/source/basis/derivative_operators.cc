@@ -92,20 +92,25 @@ DerivativeOperators<dim> make_derivative_operators(const ShapeFunctions<dim> &ba
 
   DerivativeOperators<dim> operators;
   const cloud::CandidateSearch<dim> search(particles, basis.support());
-  GroupedEvaluation<dim>(basis, search).visit(particles.positions(), direct, [&](const auto &group) {
-    operators.smallest_pivot_ratio = std::min(operators.smallest_pivot_ratio, group.regularity.smallest_pivot_ratio);
-    operators.n_indefinite += group.regularity.n_indefinite;
-    for (int quantity = 0; quantity < n_quantities; ++quantity)
-      if (group.values.has(quantity))
-        for (std::size_t p = 0; p < group.points.size(); ++p) {
-          Row &row = rows[static_cast<std::size_t>(quantity)][group.points[p]];
-          for (std::size_t j = 0; j < group.candidates.size(); ++j)
-            if (const double value = group.values.row(quantity, j)[p]; value != 0) {
-              row.columns.push_back(group.candidates[j]);
-              row.values.push_back(value);
-            }
-        }
-  });
+  GroupedEvaluation<dim>(basis, search)
+      .visit(
+          particles.positions(), direct,
+          [&](const auto &group) {
+            operators.smallest_pivot_ratio =
+                std::min(operators.smallest_pivot_ratio, group.regularity.smallest_pivot_ratio);
+            operators.n_indefinite += group.regularity.n_indefinite;
+            for (int quantity = 0; quantity < n_quantities; ++quantity)
+              if (group.values.has(quantity))
+                for (std::size_t p = 0; p < group.points.size(); ++p) {
+                  Row &row = rows[static_cast<std::size_t>(quantity)][group.points[p]];
+                  for (std::size_t j = 0; j < group.candidates.size(); ++j)
+                    if (const double value = group.values.row(quantity, j)[p]; value != 0) {
+                      row.columns.push_back(group.candidates[j]);
+                      row.values.push_back(value);
+                    }
+                }
+          },
+          "particle");
   if (wanted.value)
     operators.value = assemble(rows[0]);
   for (std::size_t k = 0; k < dim && direct.gradient; ++k) {

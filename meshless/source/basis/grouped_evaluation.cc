@@ -1,5 +1,7 @@
 #include "meshless/basis/grouped_evaluation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -39,7 +41,7 @@ SortedCells<dim> sort_into_cells(std::span<const cloud::Point<dim>> points, cons
 
 template <int dim>
 void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
-                                   const Visitor &visitor) const {
+                                   const Visitor &visitor, const char *noun) const {
   const auto &particles = search_->particles();
   const auto h = particles.smoothing_lengths();
   const double mean = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
@@ -76,7 +78,12 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
     batch.assign(std::span<const cloud::Point<dim>>(members));
     candidate_batch.assign(particles, candidates);
     const auto regularity = basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
-    require_regular(regularity, batch, *basis_);
+    try {
+      require_regular(regularity, batch, *basis_);
+    } catch (const SingularMomentMatrix &error) {
+      throw SingularMomentMatrix(
+          fmt::format("{} {}: {}", noun, sorted.order[begin + regularity.worst_point], error.what()));
+    }
     visitor(Group{std::span(sorted.order).subspan(begin, end - begin), candidates, values, regularity});
     begin = end;
   }

@@ -28,8 +28,10 @@ public:
       : basis_(&basis), search_(&search) {}
 
   /// Visits every point once, in batches of at most 64.
-  /// @throws SingularMomentMatrix where the basis does not exist
-  void visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted, const Visitor &visitor) const;
+  /// @param noun what the points are, for the message: "particle" or "point"
+  /// @throws SingularMomentMatrix where the basis does not exist, naming the point by its index
+  void visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted, const Visitor &visitor,
+             const char *noun = "point") const;
 
 private:
   const ShapeFunctions<dim> *basis_;

@@ -153,12 +153,15 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   // Groups come in the order of cells, rows must follow the particles: keep them until all are there.
   std::vector<ParticleRows> particle_rows(n);
   const basis::GroupedEvaluation<2> evaluation(*basis, search);
-  evaluation.visit(particles->positions(), {.value = true, .gradient = true, .hessian = true}, [&](const auto &group) {
-    seconds.basis += watch.lap();
-    for (std::size_t p = 0; p < group.points.size(); ++p)
-      particle_rows[group.points[p]] = rows_of(problem, rows, group.points[p], p, group);
-    seconds.assembly += watch.lap();
-  });
+  evaluation.visit(
+      particles->positions(), {.value = true, .gradient = true, .hessian = true},
+      [&](const auto &group) {
+        seconds.basis += watch.lap();
+        for (std::size_t p = 0; p < group.points.size(); ++p)
+          particle_rows[group.points[p]] = rows_of(problem, rows, group.points[p], p, group);
+        seconds.assembly += watch.lap();
+      },
+      "particle");
   linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
   std::vector<double> right_hand_side;
   right_hand_side.reserve(2 * n);

@@ -301,7 +301,9 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   // The basis must exist at the particles too, where quadrature points never fall: a support that
   // is too small shows there first.
   const cloud::CandidateSearch<2> search(*particles, basis->support());
-  basis::GroupedEvaluation<2>(*basis, search).visit(particles->positions(), {}, [](const auto &) {});
+  basis::GroupedEvaluation<2>(*basis, search)
+      .visit(
+          particles->positions(), {}, [](const auto &) {}, "particle");
   assembler.seconds.basis += watch.lap();
 
   linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
