@@ -23,4 +23,11 @@ void PlaneProblem::check() const {
     throw std::invalid_argument("the body can move freely: no boundary fixes both u1 and u2");
 }
 
+void PlaneProblem::require_inside(std::span<const Point2> particles) const {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!boundary.contains(particles[i]) && boundary.pieces_at(particles[i]).empty())
+      throw std::invalid_argument(fmt::format("particle {} at ({:.6g}, {:.6g}) lies outside of the domain", i,
+                                              particles[i][0], particles[i][1]));
+}
+
 } // namespace meshless::elasticity

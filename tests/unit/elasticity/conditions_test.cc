@@ -35,6 +35,22 @@ TEST(PlaneProblem, needs_the_displacement_it_prescribes_but_no_traction) {
   EXPECT_TRUE(mentions(refused(problem), {"boundary 0", "no displacement"}));
 }
 
+TEST(PlaneProblem, refuses_particles_outside_of_the_domain_by_every_form) {
+  const Cantilever plate;
+  const auto problem = plate.problem();
+  // Inside, on an edge and at a corner are fine; 1.01 is beyond the right edge.
+  const std::vector<Point2> points{{.5, .1}, {1, .1}, {0, 0}, {1.01, .1}};
+  EXPECT_NO_THROW(problem.require_inside(std::span(points).first(3)));
+  const auto message = message_of<std::invalid_argument>([&] { problem.require_inside(points); });
+  EXPECT_TRUE(mentions(message, {"particle 3", "(1.01, 0.1)", "outside"}));
+  const auto particles = std::make_shared<const cloud::Particles<2>>(points, std::vector<double>(points.size(), .1));
+  const std::shared_ptr<const basis::ShapeFunctions<2>> basis = basis::make_ssph<2>(2, kernels::Gauss(4));
+  EXPECT_TRUE(mentions(message_of<std::invalid_argument>([&] { strong_form::solve(problem, particles, basis, {}); }),
+                       {"particle 3"}));
+  EXPECT_TRUE(mentions(message_of<std::invalid_argument>([&] { weak_form::solve(problem, particles, basis, {}); }),
+                       {"particle 3"}));
+}
+
 TEST(PlaneProblem, must_be_held_in_both_directions) {
   const Cantilever plate;
   Kinds kinds{{{loaded, loaded}, {loaded, loaded}, {loaded, loaded}, {loaded, loaded}}};

@@ -41,6 +41,10 @@ struct PlaneProblem {
   /// @throws std::invalid_argument if a piece has no condition, a condition lacks its displacement
   ///   field, or no component of any piece is fixed
   void check() const;
+
+  /// @throws std::invalid_argument naming the first particle that lies outside of the domain: its subdomain
+  ///   would be empty, and collocation would take it for an interior one
+  void require_inside(std::span<const Point2> particles) const;
 };
 
 } // namespace meshless::elasticity

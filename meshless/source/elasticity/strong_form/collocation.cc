@@ -142,6 +142,7 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
                        const std::vector<CornerRule> &corner_rules) {
   problem.check();
+  problem.require_inside(particles->positions());
   SolveSeconds seconds;
   Stopwatch watch;
   const std::size_t n = particles->size();

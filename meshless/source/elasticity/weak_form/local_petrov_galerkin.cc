@@ -293,6 +293,7 @@ private:
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters) {
   problem.check();
+  problem.require_inside(particles->positions());
   Stopwatch watch;
   const std::size_t n = particles->size();
   Assembler assembler(problem, *particles, *basis, parameters);
