@@ -21,7 +21,8 @@ function(petrov_add_program name)
   target_link_libraries(${name} PRIVATE ${PETROV_OPENBLAS_LINK} comparisons)
 endfunction()
 
-# What a report says of the program: version, commit, flags, where the data are.
+# What a report says of the program: version, commit, flags, where the data are; read by the sources named after the
+# target.
 # The commit changes without any change of ours, so it lives in a header, petrov_commit.h (#define PETROV_COMMIT),
 # which is looked at in every build and rewritten only when it differs.
 function(petrov_describe_build target)
@@ -39,7 +40,8 @@ function(petrov_describe_build target)
   list(FILTER options EXCLUDE REGEX "^(-W|\\$<)")
   list(JOIN options " " options)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${options}" flags)
-  target_compile_definitions(${target} PRIVATE
+  # Only for the files that read them: a compiler cache then shares all others between folders.
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS
     PETROV_VERSION="${PROJECT_VERSION}"
     PETROV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PETROV_INSTALL_DATA_DIR="${CMAKE_INSTALL_FULL_DATADIR}/petrov"
