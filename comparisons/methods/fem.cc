@@ -17,15 +17,18 @@ namespace reference = fem_reference::elasticity;
 using scene::Type;
 
 reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
-  reference::PlaneProblem problem{
-      {},
-      reference::Material(statement.material.youngs_modulus, statement.material.poisson_ratio,
-                          statement.material.plane_strain ? reference::PlaneModel::plane_strain
-                                                          : reference::PlaneModel::plane_stress),
-      {},
-      statement.body_force};
+  if (statement.regions.size() != 1)
+    throw Refused("several materials are not possible yet");
+  const auto &material = statement.regions.front().material;
+  reference::PlaneProblem problem{{},
+                                  reference::Material(material.youngs_modulus, material.poisson_ratio,
+                                                      material.plane_strain ? reference::PlaneModel::plane_strain
+                                                                            : reference::PlaneModel::plane_stress),
+                                  {},
+                                  statement.body_force};
   problem.mesh.vertices = std::move(mesh.vertices);
-  problem.mesh.cells = std::move(mesh.cells);
+  for (const auto &cell : mesh.cells)
+    problem.mesh.cells.push_back(cell.vertices);
   for (const auto &edge : mesh.boundary)
     problem.mesh.boundary.push_back({edge.vertices, edge.id});
   for (const auto &[id, condition] : statement.conditions) {
