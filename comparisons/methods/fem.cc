@@ -19,13 +19,14 @@ using scene::Type;
 reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
   reference::PlaneProblem problem{
       {},
-      reference::Material(statement.material.youngs_modulus, statement.material.poisson_ratio,
-                          statement.material.plane_strain ? reference::PlaneModel::plane_strain
-                                                          : reference::PlaneModel::plane_stress),
+      {reference::Material(statement.material.youngs_modulus, statement.material.poisson_ratio,
+                           statement.material.plane_strain ? reference::PlaneModel::plane_strain
+                                                           : reference::PlaneModel::plane_stress)},
       {},
       statement.body_force};
   problem.mesh.vertices = std::move(mesh.vertices);
-  problem.mesh.cells = std::move(mesh.cells);
+  for (const auto &cell : mesh.cells)
+    problem.mesh.cells.push_back({cell});
   for (const auto &edge : mesh.boundary)
     problem.mesh.boundary.push_back({edge.vertices, edge.id});
   for (const auto &[id, condition] : statement.conditions) {
