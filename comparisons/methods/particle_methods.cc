@@ -117,7 +117,7 @@ std::vector<Declaration> weak_declarations(Form form) {
                {.name = "test_radius",
                 .range = {.lower = 0.05, .upper = 10},
                 .meaning = "radius of the local subdomain in units of h; if absent, h on regular clouds, .75 spacings "
-                           "on others, .85 for orders 3 and 4, .6 for heaviside"},
+                           "on others, .85 for order 3, .9 for 4, .6 for heaviside"},
                {.name = "subdomains",
                 .type = Type::choice,
                 .choices = {"auto", "whole", "shrunk"},
@@ -206,7 +206,8 @@ double test_radius_of(const Parameters &parameters, bool regular, double smoothi
     return parameters.real("test_radius");
   if (parameters.text("test_function") == heaviside)
     return 0.6 / smoothing_length;
-  return regular ? 1 : (parameters.integer("order") < 3 ? 0.75 : 0.85) / smoothing_length;
+  constexpr double spacings[] = {0.75, 0.75, 0.85, 0.9}; // by order
+  return regular ? 1 : spacings[parameters.integer("order") - 1] / smoothing_length;
 }
 
 void check_order(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {

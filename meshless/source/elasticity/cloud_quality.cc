@@ -22,15 +22,16 @@ public:
       filters_.emplace_back(surroundings, particles, r);
   }
 
-  /// The particle and, inside the domain, eight points around it, with the particles that it sees.
+  /// The particle and, inside the domain, sixteen points around it, with the particles that it sees.
   basis::Regularity look(std::size_t particle) {
     const auto region = static_cast<std::size_t>(particles_.region(particle));
     const Point2 &x = particles_.position(particle);
     const double radius = reach_ * particles_.smoothing_length(particle);
     points_.assign(1, x);
-    for (int k = 0; k < 8 && radius > 0; ++k) {
-      const double angle = std::numbers::pi / 4 * k;
-      const Point2 point{x[0] + radius * std::cos(angle), x[1] + radius * std::sin(angle)};
+    for (int k = 0; k < 16 && radius > 0; ++k) {
+      const double angle = std::numbers::pi / 8 * k; // the two rings interlaced
+      const double r = k % 2 == 0 ? radius : 0.5 * radius;
+      const Point2 point{x[0] + r * std::cos(angle), x[1] + r * std::sin(angle)};
       if (surroundings_.boundary(region).contains(point))
         points_.push_back(point);
     }
@@ -69,6 +70,8 @@ constexpr double step = 1.05;
 constexpr double largest_enlargement = 2;
 
 } // namespace
+
+double poor_pivot_ratio(int order) { return std::pow(10.0, -2 - order); }
 
 CloudQuality cloud_quality(const Surroundings &surroundings, const cloud::Particles<2> &particles,
                            const basis::ShapeFunctions<2> &basis, double reach) {
@@ -109,6 +112,7 @@ Enlargement enlarge_where_poor(const Surroundings &surroundings, const cloud::Pa
                                const basis::ShapeFunctions<2> &basis, double reach) {
   Enlargement result{particles};
   std::vector<bool> given_up(particles.size());
+  const double poor = poor_pivot_ratio(basis.order());
   for (bool changed = true; changed;) {
     changed = false;
     std::vector<double> h(result.particles.smoothing_lengths().begin(), result.particles.smoothing_lengths().end());
@@ -117,7 +121,7 @@ Enlargement enlarge_where_poor(const Surroundings &surroundings, const cloud::Pa
       if (given_up[i])
         continue;
       const auto regularity = probe.look(i);
-      if (regularity.smallest_pivot_ratio > poor_pivot_ratio)
+      if (regularity.smallest_pivot_ratio > poor)
         continue;
       const Point2 x = probe.points()[regularity.worst_point];
       given_up[i] = true;
