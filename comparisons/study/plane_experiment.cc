@@ -116,7 +116,7 @@ public:
     const double order = static_cast<double>(p.integer("order"));
     const double support = (p.has("support") ? p.real("support") : order + 2) * p.real("smoothing_length");
     const bool weak = p.has("quadrature_points");
-    const double reach = weak ? support + p.real("test_radius") : support;
+    const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
     const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
     const double nonzeros = e.n_dofs * 2 * neighbours;
     e.bytes = 16 * nonzeros + 16 * nonzeros * std::log2(e.n_points + 2);
