@@ -38,6 +38,15 @@ CloudFile read_cloud_csv(const std::filesystem::path &path);
 /// The same from a text; `name` stands for the file in messages.
 CloudFile parse_cloud_csv(std::string_view text, const std::string &name);
 
+/// Reads the points of a VTK file: the legacy format with ASCII data, or XML (PolyData, UnstructuredGrid) with one
+/// piece and data as text. Arrays of the points named h, volume and region are taken; cells and other arrays are passed
+/// over.
+///
+/// @throws CloudFileError with the first fault: another format, binary data, a count that the file cannot hold, an end
+///   too early, a text that is no number, z other than 0, or a value that the CSV reader would refuse too
+CloudFile read_cloud_vtk(const std::filesystem::path &path);
+CloudFile parse_cloud_vtk(std::string_view text, const std::string &name);
+
 /// A cloud as such a text, columns x, y, h (and region, if there are several), every number to its last bit.
 std::string cloud_csv(const Cloud &cloud, std::string_view comment);
 

@@ -66,4 +66,63 @@ TEST(CloudFile, names_the_place_of_every_fault) {
                        {"/nowhere/cloud.csv", "cannot be read"}));
 }
 
+std::string vtk_fault_of(const std::string &text) {
+  return refusal::message_of<CloudFileError>([&] { parse_cloud_vtk(text, "cloud.vtk"); });
+}
+
+const std::string legacy =
+    "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 1 0\n2.5 -3 0\n"
+    "VERTICES 1 3\n2 0 1\nPOINT_DATA 2\nSCALARS pressure double 1\nLOOKUP_TABLE default\n7 8\n"
+    "SCALARS h double\nLOOKUP_TABLE default\n.1 .2\nFIELD FieldData 2\nvelocity 3 2 double\n"
+    "1 2 3 4 5 6\nregion 1 2 int\n0 1\n";
+const std::string xml =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n<UnstructuredGrid>\n"
+    "<Piece NumberOfPoints=\"2\" NumberOfCells=\"0\">\n<PointData>\n"
+    "<DataArray type=\"Float64\" Name=\"h\" format=\"ascii\">.1 .2</DataArray>\n"
+    "<DataArray type=\"Float64\" Name=\"other\" format=\"ascii\">? ?</DataArray>\n</PointData>\n"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n0 1 0\n2.5 -3 0\n"
+    "</DataArray></Points>\n</Piece></UnstructuredGrid></VTKFile>\n";
+
+std::string changed(std::string text, const std::string &from, const std::string &to) {
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+
+TEST(CloudFile, reads_points_of_vtk_files) {
+  for (const auto &text : {legacy, xml}) {
+    const auto cloud = parse_cloud_vtk(text, "cloud.vtk");
+    EXPECT_EQ(cloud.positions, (std::vector<Point2>{{0, 1}, {2.5, -3}}));
+    EXPECT_EQ(cloud.spacing, (std::vector<double>{.1, .2}));
+    EXPECT_TRUE(cloud.volumes.empty());
+  }
+  EXPECT_EQ(parse_cloud_vtk(legacy, "cloud.vtk").regions, (std::vector<int>{0, 1}));
+}
+
+TEST(CloudFile, names_the_fault_of_a_vtk_file) {
+  EXPECT_TRUE(mentions(vtk_fault_of("x,y\n1,2\n"), {"cloud.vtk:1:1:", "vtk DataFile", "VTKFile"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "ASCII", "BINARY")), {"cloud.vtk:3:1:", "BINARY", "only ASCII"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "-3 0", "-3 .5")), {"cloud.vtk:7:8:", "z = 0.5"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "2.5", "2,5")), {"cloud.vtk:7:1:", "x of point 1", "2,5"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "POINTS 2", "POINTS 999999999")), {"cloud.vtk:5:8:", "can hold"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "POINTS 2", "POINTS -2")), {"whole number"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(changed(legacy, "2.5 -3", "0 1"), "region", "other")), {"points 0 and 1"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, ".1 .2", ".1 0")), {"h of point 1", "greater than 0"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "POINTS", "POINT")), {"no POINTS"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(xml.substr(0, 200)), {"cloud.vtk:"}));
+  EXPECT_TRUE(
+      mentions(vtk_fault_of(changed(xml, "NumberOfPoints=\"2\"", "NumberOfPoints=\"1000000000000\"")), {"no count"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(xml, "NumberOfComponents=\"3\" format=\"ascii\"", "format=\"appended\"")),
+                       {"appended", "ascii"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(changed(xml, "-3 0", "-3 x")), {"z of point 1", "x"}));
+  // Cut anywhere, a file is either refused with its name or complete.
+  for (const auto &text : {legacy, xml})
+    for (std::size_t n = 0; n < text.size(); ++n) {
+      try {
+        parse_cloud_vtk(text.substr(0, n), "cloud.vtk");
+      } catch (const CloudFileError &error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with("cloud.vtk:"));
+      }
+    }
+}
+
 } // namespace
