@@ -3,6 +3,7 @@
 #include "comparisons/metrics/error_norms.h"
 #include "comparisons/metrics/force_balance.h"
 #include "comparisons/metrics/memory.h"
+#include "comparisons/metrics/requested_quantities.h"
 #include "comparisons/reports/files.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
@@ -85,6 +86,7 @@ public:
     watch.lap();
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
     cell.quantities["force_imbalance"] = metrics::equilibrium(*solution, problem_->statement(), quadrature).imbalance;
+    metrics::add_requested_quantities(*solution, *problem_, quadrature, cell.quantities);
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())
