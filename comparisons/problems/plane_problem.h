@@ -172,6 +172,8 @@ public:
   virtual Quadrature quadrature(const scene::Level &level) const = 0;
   virtual std::vector<SampleLine> sample_lines() const = 0;
   virtual std::vector<RequestedQuantity> quantities() const { return {}; }
+  /// What a reader of any result must know: how the geometry was taken, what the reference is.
+  virtual std::vector<std::string> remarks() const { return {}; }
   /// Component of the displacement whose largest error is reported, and the line where it is sought.
   struct LargestError {
     std::string quantity; ///< "u2_max_relative"

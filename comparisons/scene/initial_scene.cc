@@ -44,6 +44,10 @@ Value placeholder(const Declaration &declaration) {
     return number;
   case Type::text:
     return std::string("fill in");
+  case Type::expression:
+    return std::string("0");
+  case Type::expressions:
+    return std::string("0; 0");
   case Type::choice:
     return declaration.choices.empty() ? std::string{} : declaration.choices.front();
   case Type::point:
