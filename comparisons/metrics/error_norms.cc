@@ -114,9 +114,12 @@ void add_largest_error(const methods::Solution &solution, const problems::PlaneP
 std::map<std::string, double> error_norms(const methods::Solution &solution, const problems::PlaneProblem &problem,
                                           const problems::Quadrature &quadrature) {
   std::map<std::string, double> errors;
-  add_displacement_errors(solution, problem, quadrature, errors);
-  add_stress_errors(solution, problem, quadrature, errors);
-  if (const auto request = problem.largest_error())
+  const auto &exact = problem.exact();
+  if (exact.displacement)
+    add_displacement_errors(solution, problem, quadrature, errors);
+  if (exact.stress)
+    add_stress_errors(solution, problem, quadrature, errors);
+  if (const auto request = problem.largest_error(); request && exact.displacement)
     add_largest_error(solution, problem, *request, errors);
   return errors;
 }
