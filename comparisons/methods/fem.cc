@@ -17,20 +17,18 @@ namespace reference = fem_reference::elasticity;
 using scene::Type;
 
 reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
-  if (statement.regions.size() != 1)
-    throw Refused("several materials are not possible yet");
-  const auto &material = statement.regions.front().material;
-  reference::PlaneProblem problem{{},
-                                  reference::Material(material.youngs_modulus, material.poisson_ratio,
-                                                      material.plane_strain ? reference::PlaneModel::plane_strain
-                                                                            : reference::PlaneModel::plane_stress),
-                                  {},
-                                  statement.body_force};
+  reference::PlaneProblem problem{{}, {}, {}, statement.body_force};
+  for (const auto &region : statement.regions)
+    problem.materials.emplace_back(region.material.youngs_modulus, region.material.poisson_ratio,
+                                   region.material.plane_strain ? reference::PlaneModel::plane_strain
+                                                                : reference::PlaneModel::plane_stress);
   problem.mesh.vertices = std::move(mesh.vertices);
   for (const auto &cell : mesh.cells)
-    problem.mesh.cells.push_back(cell.vertices);
+    problem.mesh.cells.push_back({cell.vertices, cell.n_vertices, cell.region});
   for (const auto &edge : mesh.boundary)
-    problem.mesh.boundary.push_back({edge.vertices, edge.id});
+    problem.mesh.boundary.push_back({edge.vertices, edge.id, edge.arc_centre});
+  for (const auto &edge : mesh.curved_edges)
+    problem.mesh.curved_edges.push_back({edge.vertices, edge.midpoint});
   for (const auto &[id, condition] : statement.conditions) {
     reference::BoundaryCondition translated;
     for (std::size_t k = 0; k < 2; ++k)
@@ -78,6 +76,18 @@ public:
       throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
   }
 
+  std::optional<ForceBalance> own_forces() const override {
+    ForceBalance balance;
+    for (const auto &forces : {solution_.reactions(), solution_.applied_tractions()})
+      for (const auto &[id, force] : forces)
+        for (std::size_t k = 0; k < 2; ++k)
+          balance.boundary[id][k] += force[k];
+    balance.body = solution_.applied_body_force();
+    return balance;
+  }
+
+  std::optional<double> own_strain_energy() const override { return solution_.strain_energy(); }
+
 private:
   reference::PlaneSolution solution_;
 };
@@ -99,13 +109,14 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
 Method fem() {
   Method method;
   method.description.name = "fem";
-  method.description.meaning = "finite elements by deal.II, isoparametric Q1 to Q4";
+  method.description.meaning =
+      "finite elements by deal.II, isoparametric, of degree 1 to 4 on quadrilaterals and triangles";
   method.description.parameters = {
       {.name = "element",
        .type = Type::choice,
        .choices = {"Q1", "Q2", "Q3", "Q4"},
        .default_value = "Q2",
-       .meaning = "element: degree of displacement and geometry"},
+       .meaning = "element: degree of displacement and geometry; on triangles Q2 means P2"},
       {.name = "solver",
        .type = Type::choice,
        .choices = {"cholesky", "umfpack"},

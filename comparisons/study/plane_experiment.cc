@@ -3,6 +3,7 @@
 #include "comparisons/metrics/error_norms.h"
 #include "comparisons/metrics/force_balance.h"
 #include "comparisons/metrics/memory.h"
+#include "comparisons/metrics/requested_quantities.h"
 #include "comparisons/reports/files.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
@@ -84,7 +85,11 @@ public:
     const auto &quadrature = quadrature_of(level);
     watch.lap();
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
-    cell.quantities["force_imbalance"] = metrics::equilibrium(*solution, problem_->statement(), quadrature).imbalance;
+    const auto equilibrium = metrics::equilibrium(*solution, problem_->statement(), quadrature);
+    cell.quantities["force_imbalance"] = equilibrium.imbalance;
+    cell.quantities.merge(metrics::requested_quantities(*solution, *problem_, quadrature, equilibrium));
+    for (auto &remark : problem_->remarks())
+      cell.warnings.push_back(std::move(remark));
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())
@@ -95,6 +100,8 @@ public:
       cell.series.push_back({line.name, file});
     }
   }
+
+  void prepare() const override { problem_->exact(); }
 
   /// Matrix entries from the mean number of neighbours; a sparse LU in two dimensions fills like
   /// N log N and works like N^1.5; the constants were measured on one core of a 2 GHz server.

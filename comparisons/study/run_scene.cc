@@ -48,6 +48,8 @@ public:
 
   std::vector<reports::Cell> run() {
     metrics::use_threads(static_cast<int>(scene_.study.integer("threads")));
+    for (const auto &experiment : experiments_)
+      experiment->prepare();
     const auto repeats = static_cast<int>(scene_.study.integer("repeats"));
     std::size_t n_finished = 0;
     for (auto &measured : measured_) {
