@@ -93,7 +93,7 @@ inline std::vector<LameLayer> pressed_double_ring(const Material &first, const M
   return layers(pressure * at_zero / (at_zero - at_pressure));
 }
 
-/// Relative L2 errors over given points with given weights, and the largest error of a reaction balance.
+/// Relative L2 errors over given points with given weights, and how many of these the mesh does not hold.
 struct Norms {
   double displacement = 0;
   double stress = 0;
