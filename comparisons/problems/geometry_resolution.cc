@@ -138,7 +138,7 @@ private:
     for (const auto &level : levels()) {
       const double wanted = wanted_cells(level, base);
       if (wanted > most_cells) {
-        error(scene_.study.location("repeats"), "study.levels",
+        error(tables_.geometry.location, "study.levels",
               fmt::format("the level {} has about {:.2g} cells; at most {:.2g} are allowed", level.text, wanted,
                           most_cells));
         continue;

@@ -48,8 +48,7 @@ public:
 
   std::vector<reports::Cell> run() {
     metrics::use_threads(static_cast<int>(scene_.study.integer("threads")));
-    for (const auto &experiment : experiments_)
-      experiment->prepare();
+    prepare();
     const auto repeats = static_cast<int>(scene_.study.integer("repeats"));
     std::size_t n_finished = 0;
     for (auto &measured : measured_) {
@@ -73,6 +72,15 @@ public:
   }
 
 private:
+  void prepare() const {
+    for (const auto &experiment : experiments_)
+      try {
+        experiment->prepare();
+      } catch (const std::exception &) {
+        // Each cell asks again, and its reason tells.
+      }
+  }
+
   bool stopped() const { return options_.stop_requested && options_.stop_requested(); }
 
   void report_progress(const Measured &measured, std::size_t n_finished) const {
