@@ -2,6 +2,9 @@
 
 #include "comparisons/geometry/mesh_operations.h"
 
+#include "meshless/cloud/point_tree.h"
+#include "meshless/cloud_generation/generator.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,8 +81,9 @@ std::vector<Point2> on_pieces(const Mesh &mesh, const std::vector<Region> &regio
 } // namespace
 
 GeometryProblem::GeometryProblem(std::shared_ptr<const ResolvedGeometry> geometry, const scene::GeometryTables &tables,
-                                 ReferenceSolver solve_reference)
-    : geometry_(std::move(geometry)), element_(tables.reference.keys.text("element")),
+                                 std::uint64_t seed, ReferenceSolver solve_reference)
+    : geometry_(std::move(geometry)), generated_(tables.geometry.keys.text("cloud") == "generated"), seed_(seed),
+      element_(tables.reference.keys.text("element")),
       refinements_(static_cast<int>(tables.reference.keys.integer("refinements"))),
       solve_reference_(std::move(solve_reference)) {}
 
@@ -99,6 +103,41 @@ Mesh GeometryProblem::mesh(const scene::Level &level) const { return geometry_->
 
 Cloud GeometryProblem::cloud(const scene::Level &level) const {
   const Mesh &mesh = geometry_->levels.at(level.text);
+  Cloud cloud = nodes(mesh);
+  return generated_ ? generated(mesh, cloud.positions.size()) : cloud;
+}
+
+Cloud GeometryProblem::generated(const Mesh &mesh, std::size_t n_particles) const {
+  meshless::cloud_generation::CloudRequest request;
+  for (const auto &region : geometry_->statement.regions) {
+    std::vector<meshless::domain::BoundaryPiece> pieces;
+    for (const auto &piece : region.boundary) {
+      pieces.push_back({piece.begin, piece.end, piece.id});
+      if (piece.arc)
+        pieces.back().arc = {piece.arc->centre, piece.arc->counter_clockwise};
+    }
+    request.regions.emplace_back(std::move(pieces));
+  }
+  const auto spacing = geometry::vertex_spacing(mesh);
+  const meshless::cloud::PointTree<2> tree(mesh.vertices);
+  request.spacing = [&](std::span<const Point2> points, std::span<double> values) {
+    std::vector<meshless::cloud::Index> nearest;
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      tree.nearest(points[i], 1, nearest, distances);
+      values[i] = spacing[static_cast<std::size_t>(nearest.front())];
+    }
+  };
+  request.seed = seed_;
+  request.n_particles = n_particles;
+  auto made = meshless::cloud_generation::generate(request);
+  Cloud cloud{std::move(made.positions), std::move(made.spacing)};
+  if (geometry_->statement.regions.size() > 1)
+    cloud.regions = std::move(made.regions);
+  return cloud;
+}
+
+Cloud GeometryProblem::nodes(const Mesh &mesh) const {
   const auto &regions = geometry_->statement.regions;
   const auto spacing = geometry::vertex_spacing(mesh);
   const auto points = on_pieces(mesh, regions, edge_vertices(mesh, regions.size()), spacing);

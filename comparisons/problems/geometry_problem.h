@@ -43,13 +43,15 @@ using ReferenceSolver =
 /// The plane elastostatic problem of a geometry of one's own.
 class GeometryProblem final : public PlaneProblem {
 public:
+  /// @param seed of generated clouds
   GeometryProblem(std::shared_ptr<const ResolvedGeometry> geometry, const scene::GeometryTables &tables,
-                  ReferenceSolver solve_reference);
+                  std::uint64_t seed, ReferenceSolver solve_reference);
 
   const PlaneStatement &statement() const override { return geometry_->statement; }
   /// The exact solution, or the finite-element solution on the refined finest mesh, computed at the first call.
   const ExactSolution &exact() const override;
-  /// Corners of the level's cells; those on a boundary are put on the statement's own pieces.
+  /// Corners of the level's cells, those on a boundary put on the statement's own pieces; or a generated cloud of as
+  /// many particles.
   Cloud cloud(const scene::Level &level) const override;
   Mesh mesh(const scene::Level &level) const override;
   Quadrature quadrature(const scene::Level &level) const override;
@@ -58,7 +60,12 @@ public:
   std::vector<std::string> remarks() const override;
 
 private:
+  Cloud nodes(const Mesh &mesh) const;
+  Cloud generated(const Mesh &mesh, std::size_t n_particles) const;
+
   std::shared_ptr<const ResolvedGeometry> geometry_;
+  bool generated_;
+  std::uint64_t seed_;
   std::string element_;
   int refinements_;
   ReferenceSolver solve_reference_;

@@ -31,9 +31,11 @@ std::vector<Declaration> geometry_declarations() {
        .meaning = "only for a .geo: what the drawing is meshed with"},
       {.name = "cloud",
        .type = Type::choice,
-       .choices = {"nodes"},
+       .choices = {"nodes", "generated"},
        .default_value = "nodes",
-       .meaning = "particles of the meshless methods: the corners of the level's cells"},
+       .meaning =
+           "particles of the meshless methods: the corners of the level's cells, or as many, relaxed, of the same "
+           "local spacing"},
   };
 }
 

@@ -60,7 +60,11 @@ std::optional<Scene> SceneReader::read() {
   if (diagnostics_.has_errors())
     return std::nullopt;
   scene_.file = file_;
-  scene_.name = std::filesystem::path(file_).stem().string();
+  const std::filesystem::path path(file_);
+  scene_.name = path.stem().string();
+  // Every geometry of one's own is of the same 'benchmark': its folder tells them apart.
+  if (const auto folder = path.parent_path().filename().string(); has_geometry() && !folder.empty() && folder != ".")
+    scene_.name = scene_.name == "scene" ? folder : folder + "/" + scene_.name;
   scene_.benchmark = benchmark_->name;
   scene_.material = single(material_);
   scene_.study = single(study_);

@@ -58,7 +58,9 @@ std::unique_ptr<study::Experiment> make_experiment(const scene::Scene &scene, co
   if (resolved == nullptr || scene.geometry == nullptr)
     throw std::logic_error("the scene's geometry was not read");
   return study::make_plane_experiment(
-      std::make_unique<problems::GeometryProblem>(std::move(resolved), *scene.geometry, reference_solver(methods)),
+      std::make_unique<problems::GeometryProblem>(std::move(resolved), *scene.geometry,
+                                                  static_cast<std::uint64_t>(scene.study.integer("seed")),
+                                                  reference_solver(methods)),
       methods);
 }
 
