@@ -292,13 +292,13 @@ private:
 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   const auto &parameters = request.parameters;
+  const auto problem = translate(request.statement); // first: it refuses what particles cannot do
   meshless::linear_algebra::Stopwatch watch;
   const auto particles = make_particles(request.cloud(), parameters);
   const double points_seconds = watch.lap();
   const auto kernel = kernel_of(parameters);
   std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis =
       meshless::basis::make_basis<2>(parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel);
-  const auto problem = translate(request.statement);
   try {
     if (form == Form::strong)
       return std::make_unique<ParticleField>(

@@ -111,8 +111,11 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
   if (scene->geometry != nullptr)
     fmt::print("\n{}", describe_geometry(*scene));
   print_cells(*scene, catalogue);
-  fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
-             scene::describe_declarations(benchmark.material));
+  if (benchmark.own_geometry)
+    fmt::print("\n{}", describe_geometry_keys());
+  else
+    fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
+               scene::describe_declarations(benchmark.material));
   std::vector<std::string> shown;
   for (const auto &request : scene->methods) {
     if (std::find(shown.begin(), shown.end(), request.name) != shown.end())

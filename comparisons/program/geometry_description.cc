@@ -1,6 +1,8 @@
 #include "comparisons/program/geometry_description.h"
 
 #include "comparisons/problems/geometry_problem.h"
+#include "comparisons/scene/describe.h"
+#include "comparisons/scene/geometry_tables.h"
 #include "comparisons/scene/units.h"
 
 #include <fmt/format.h>
@@ -79,6 +81,18 @@ std::string describe_geometry(const scene::Scene &scene) {
     text += fmt::format("  {:<20} {:>8} cells  {} vertices\n", name, mesh.cells.size(), mesh.vertices.size());
   for (const auto &remark : geometry->remarks)
     text += "  Note: " + remark + "\n";
+  return text;
+}
+
+std::string describe_geometry_keys() {
+  std::string text;
+  for (const auto &[title, declarations] : {std::pair{"[geometry]", scene::geometry_declarations()},
+                                            {"[[material]]", scene::region_material_declarations()},
+                                            {"[[boundary]]", scene::boundary_declarations()},
+                                            {"[effects.body_force]", scene::body_force_declarations()},
+                                            {"[reference]", scene::reference_declarations()},
+                                            {"[[quantity]]", scene::quantity_declarations()}})
+    text += fmt::format("{}\n{}\n", title, scene::describe_declarations(declarations));
   return text;
 }
 
