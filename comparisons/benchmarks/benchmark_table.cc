@@ -2,6 +2,7 @@
 
 #include "comparisons/benchmarks/cantilever/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
+#include "comparisons/benchmarks/geometry/benchmark.h"
 #include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
@@ -31,7 +32,8 @@ std::vector<study::Benchmark> benchmark_table() {
           smoothing_functions::benchmark(),
           rod_derivative::benchmark(),
           rod_static::benchmark(),
-          rod_vibration::benchmark()};
+          rod_vibration::benchmark(),
+          geometry::benchmark()};
 }
 
 } // namespace comparisons::benchmarks

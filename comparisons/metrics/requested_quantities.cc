@@ -1,13 +1,11 @@
 #include "comparisons/metrics/requested_quantities.h"
 
 #include "comparisons/metrics/energy.h"
-#include "comparisons/metrics/force_balance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -30,8 +28,10 @@ double von_mises(const Stress2 &s, const problems::Material &material) {
 class Evaluation {
 public:
   Evaluation(const methods::Solution &solution, const problems::PlaneProblem &problem,
-             const problems::Quadrature &quadrature, std::map<std::string, double> &quantities)
-      : solution_(solution), problem_(problem), quadrature_(quadrature), quantities_(quantities) {
+             const problems::Quadrature &quadrature, const Equilibrium &equilibrium,
+             std::map<std::string, double> &quantities)
+      : solution_(solution), problem_(problem), quadrature_(quadrature), equilibrium_(equilibrium),
+        quantities_(quantities) {
     const auto fields = solution.fields();
     recovered_ = std::find(fields.begin(), fields.end(), "recovered_stress") != fields.end();
   }
@@ -75,7 +75,7 @@ private:
   double stress(const RequestedQuantity &request, const char *field) const {
     Stress2 s{};
     solution_.evaluate(field, std::span(&request.point, 1), s);
-    return request.component == 3 ? von_mises(s, problem_.statement().regions.front().material)
+    return request.component == 3 ? von_mises(s, material_near(request.point))
                                   : s.at(static_cast<std::size_t>(request.component));
   }
 
@@ -91,6 +91,13 @@ private:
   const problems::Material &material_at(std::size_t q) const {
     const auto region = quadrature_.regions.empty() ? 0 : static_cast<std::size_t>(quadrature_.regions[q]);
     return problem_.statement().regions[region].material;
+  }
+
+  /// That of the nearest point of the quadrature.
+  const problems::Material &material_near(const Point2 &x) const {
+    const auto distance = [&](const Point2 &p) { return std::hypot(p[0] - x[0], p[1] - x[1]); };
+    const auto nearest = std::ranges::min_element(quadrature_.points, {}, distance);
+    return material_at(static_cast<std::size_t>(nearest - quadrature_.points.begin()));
   }
 
   double largest_von_mises() {
@@ -113,10 +120,8 @@ private:
   }
 
   double reaction(const RequestedQuantity &request) {
-    if (!equilibrium_)
-      equilibrium_ = equilibrium(solution_, problem_.statement(), quadrature_);
-    const auto force = equilibrium_->boundary.find(request.id);
-    if (force == equilibrium_->boundary.end())
+    const auto force = equilibrium_.boundary.find(request.id);
+    if (force == equilibrium_.boundary.end())
       throw std::runtime_error(fmt::format("the quantity {} asks for the force on boundary {}, which has no condition",
                                            request.name, request.id));
     return force->second.at(static_cast<std::size_t>(request.component));
@@ -125,17 +130,18 @@ private:
   const methods::Solution &solution_;
   const problems::PlaneProblem &problem_;
   const problems::Quadrature &quadrature_;
+  const Equilibrium &equilibrium_;
   std::map<std::string, double> &quantities_;
   bool recovered_ = false;
   std::vector<double> stresses_;
-  std::optional<Equilibrium> equilibrium_;
 };
 
 } // namespace
 
 void add_requested_quantities(const methods::Solution &solution, const problems::PlaneProblem &problem,
-                              const problems::Quadrature &quadrature, std::map<std::string, double> &quantities) {
-  Evaluation evaluation(solution, problem, quadrature, quantities);
+                              const problems::Quadrature &quadrature, const Equilibrium &equilibrium,
+                              std::map<std::string, double> &quantities) {
+  Evaluation evaluation(solution, problem, quadrature, equilibrium, quantities);
   for (const auto &request : problem.quantities())
     evaluation.add(request);
 }

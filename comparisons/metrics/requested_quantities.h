@@ -1,6 +1,7 @@
 #pragma once
 
 #include "comparisons/methods/solution.h"
+#include "comparisons/metrics/force_balance.h"
 #include "comparisons/problems/plane_problem.h"
 
 #include <map>
@@ -12,11 +13,12 @@ namespace comparisons::metrics {
 /// the relative difference (of the difference itself, if the reference is 0).
 ///
 /// Stress is the solution's own; if it has a field "recovered_stress", `<name>_recovered` is that one's, with its own
-/// error. Reactions are those of metrics::equilibrium. The strain energy is the solution's own
+/// error. Reactions are those of `equilibrium`. The strain energy is the solution's own
 /// (Solution::own_strain_energy), or half the integral of sigma : C^-1 : sigma by the quadrature of the error norms.
 ///
 /// @throws std::runtime_error naming the quantity if its value is not finite
 void add_requested_quantities(const methods::Solution &solution, const problems::PlaneProblem &problem,
-                              const problems::Quadrature &quadrature, std::map<std::string, double> &quantities);
+                              const problems::Quadrature &quadrature, const Equilibrium &equilibrium,
+                              std::map<std::string, double> &quantities);
 
 } // namespace comparisons::metrics

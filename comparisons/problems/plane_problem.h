@@ -172,6 +172,8 @@ public:
   virtual Quadrature quadrature(const scene::Level &level) const = 0;
   virtual std::vector<SampleLine> sample_lines() const = 0;
   virtual std::vector<RequestedQuantity> quantities() const { return {}; }
+  /// What a reader of any result must know: how the geometry was taken, what the reference is.
+  virtual std::vector<std::string> remarks() const { return {}; }
   /// Errors of one component of the displacement, besides the norms of all methods.
   struct ComponentError {
     enum class Kind {

@@ -43,6 +43,17 @@ std::vector<fs::path> shipped_scenes(const std::string &benchmark) {
   return scenes;
 }
 
+std::vector<fs::path> example_scenes() {
+  std::vector<fs::path> scenes;
+  for (const auto &folder : fs::directory_iterator(benchmarks_directory().parent_path() / "examples"))
+    if (folder.is_directory())
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".toml")
+          scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
 fs::path published_file(const std::string &benchmark) { return benchmarks_directory() / benchmark / "published.toml"; }
 
 } // namespace comparisons::program

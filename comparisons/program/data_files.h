@@ -20,4 +20,7 @@ std::vector<std::filesystem::path> shipped_scenes(const std::string &benchmark);
 /// The benchmark's published.toml; may not exist.
 std::filesystem::path published_file(const std::string &benchmark);
 
+/// The scenes of all shipped examples of a geometry of one's own, comparisons/examples/*/*.toml.
+std::vector<std::filesystem::path> example_scenes();
+
 } // namespace comparisons::program

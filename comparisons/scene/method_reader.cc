@@ -68,6 +68,11 @@ void SceneReader::read_effect(const Entry &entry) {
   if (!has(names, entry.key))
     return unknown_key(entry, "effects", "[effects]", names, homes_, diagnostics_);
   const Node &value = entry.value;
+  const bool has_own_table = has_geometry() && entry.key == "body_force"; // read_geometry_tables reads it
+  if (value.is(Node::Kind::table) && has_own_table) {
+    effects_.emplace_back(entry.key, entry.key_location);
+    return;
+  }
   if (value.is(Node::Kind::table))
     return diagnostics_.error(value.location, key,
                               "an effect takes true or false; this version knows no parameters of effects",

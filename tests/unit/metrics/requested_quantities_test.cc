@@ -79,7 +79,9 @@ std::map<std::string, double> quantities_of(std::vector<RequestedQuantity> reque
                                             bool plane_strain = false) {
   const Square problem(std::move(requests), plane_strain);
   std::map<std::string, double> quantities;
-  metrics::add_requested_quantities(solution, problem, problem.quadrature({}), quantities);
+  const auto quadrature = problem.quadrature({});
+  metrics::add_requested_quantities(solution, problem, quadrature,
+                                    metrics::equilibrium(solution, problem.statement(), quadrature), quantities);
   return quantities;
 }
 
