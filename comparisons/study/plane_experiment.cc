@@ -124,7 +124,8 @@ public:
     if (!p.has("order"))
       return e;
     const double order = static_cast<double>(p.integer("order"));
-    const double support = (p.has("support") ? p.real("support") : order + 2) * p.real("smoothing_length");
+    const double support = (p.has("support") ? p.real("support") : order + 2) *
+                           (p.has("smoothing_length") ? p.real("smoothing_length") : 1);
     const bool weak = p.has("quadrature_points");
     const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
     const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
