@@ -81,7 +81,7 @@ public:
 
   problems::Quadrature quadrature(const scene::Level &level) const override {
     const double n = level.spacing ? std::pow(blocks_with(*level.spacing).n_around * 2, 2) : double(count(level));
-    return plate_with_hole::quadrature(plate_, std::clamp(static_cast<int>(std::sqrt(n) / 2), 16, 80));
+    return plate_with_hole::quadrature(plate_, std::clamp(static_cast<int>(std::sqrt(n) / 2), 10, 80));
   }
 
   std::vector<problems::SampleLine> sample_lines() const override {

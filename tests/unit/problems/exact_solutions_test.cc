@@ -2,6 +2,7 @@
 
 #include "comparisons/benchmarks/cantilever/exact_solution.h"
 #include "comparisons/benchmarks/plate_with_hole/exact_solution.h"
+#include "comparisons/problems/exact_solutions.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,14 @@ std::vector<Point2> around_the_hole() {
       const double angle = .1 + 2 * M_PI * k / 16;
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
+  return points;
+}
+
+std::vector<Point2> beside_the_ellipse() {
+  std::vector<Point2> points;
+  for (const Point2 &x : around_the_hole())
+    if (std::hypot(x[0], x[1]) > 1.05)
+      points.push_back(x);
   return points;
 }
 
