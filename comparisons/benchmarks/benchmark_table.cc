@@ -3,6 +3,7 @@
 #include "comparisons/benchmarks/cantilever/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
 #include "comparisons/benchmarks/geometry/benchmark.h"
+#include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
 #include "comparisons/benchmarks/rod_vibration/problem.h"
@@ -26,6 +27,7 @@ study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make
 
 std::vector<study::Benchmark> benchmark_table() {
   return {plane(cantilever::description(), cantilever::make_problem),
+          plane(plate_with_hole::description(), plate_with_hole::make_problem),
           function_approximation::benchmark(),
           smoothing_functions::benchmark(),
           rod_derivative::benchmark(),

@@ -9,17 +9,16 @@
 
 namespace comparisons::metrics {
 
-/// The quantities that a problem asks for, by name, each divided by its scale; with a reference also "<name>_error",
-/// relative to it.
+/// Adds the quantities that a problem asks for, by name, and for each with a reference `<name>_error`, the magnitude of
+/// the relative difference (of the difference itself, if the reference is 0).
 ///
-/// Reactions are those of `equilibrium`; the strain energy is the method's own if it has one, else half the integral of
-/// stress times strain over the quadrature; the largest von Mises stress is that of the quadrature's points.
-std::map<std::string, double> requested_quantities(const methods::Solution &solution,
-                                                   const problems::PlaneProblem &problem,
-                                                   const problems::Quadrature &quadrature,
-                                                   const Equilibrium &equilibrium);
-
-/// Von Mises stress, with the normal stress out of the plane that plane strain has.
-double von_mises(const problems::Stress2 &stress, const problems::Material &material);
+/// Stress is the solution's own; if it has a field "recovered_stress", `<name>_recovered` is that one's, with its own
+/// error. Reactions are those of `equilibrium`. The strain energy is the solution's own
+/// (Solution::own_strain_energy), or half the integral of sigma : C^-1 : sigma by the quadrature of the error norms.
+///
+/// @throws std::runtime_error naming the quantity if its value is not finite
+void add_requested_quantities(const methods::Solution &solution, const problems::PlaneProblem &problem,
+                              const problems::Quadrature &quadrature, const Equilibrium &equilibrium,
+                              std::map<std::string, double> &quantities);
 
 } // namespace comparisons::metrics

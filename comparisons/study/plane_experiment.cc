@@ -87,7 +87,7 @@ public:
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
     const auto equilibrium = metrics::equilibrium(*solution, problem_->statement(), quadrature);
     cell.quantities["force_imbalance"] = equilibrium.imbalance;
-    cell.quantities.merge(metrics::requested_quantities(*solution, *problem_, quadrature, equilibrium));
+    metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
     const double evaluation = watch.lap();
@@ -126,7 +126,7 @@ public:
     const double order = static_cast<double>(p.integer("order"));
     const double support = (p.has("support") ? p.real("support") : order + 2) * p.real("smoothing_length");
     const bool weak = p.has("quadrature_points");
-    const double reach = weak ? support + p.real("test_radius") : support;
+    const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
     const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
     const double nonzeros = e.n_dofs * 2 * neighbours;
     e.bytes = 16 * nonzeros + 9 * nonzeros * std::log2(e.n_points + 2);

@@ -10,6 +10,10 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 
 double dot(const Point2 &a, const Point2 &b) { return a[0] * b[0] + a[1] * b[1]; }
+/// A circle that only touches a piece, to rounding, has no chord there: one of half this length, in radii of the disc,
+/// rises above it by 1e-12 radii, and whether a ray meets it is chance.
+constexpr double shortest_chord = 1e-6;
+
 double cross(const Point2 &a, const Point2 &b) { return a[0] * b[1] - a[1] * b[0]; }
 Point2 minus(const Point2 &a, const Point2 &b) { return {a[0] - b[0], a[1] - b[1]}; }
 
@@ -30,6 +34,8 @@ void append_part_of_line(const BoundaryPiece &piece, const Point2 &centre, doubl
   if (distance >= radius)
     return;
   const double half = std::sqrt((radius - distance) * (radius + distance)) / length;
+  if (half * length < shortest_chord * radius)
+    return;
   const Part part{std::max(0.0, nearest - half), std::min(1.0, nearest + half)};
   if (part.end - part.begin > tolerance / length)
     parts.push_back(part);
@@ -51,6 +57,8 @@ void append_parts_of_arc(const BoundaryPiece &piece, const Point2 &centre, doubl
     return;
   }
   const double half = 2 * std::asin(std::sqrt(numerator / denominator));
+  if (half * R < shortest_chord * radius)
+    return;
   const double middle = turn(minus(piece.begin, piece.arc->centre), to, piece.arc->counter_clockwise);
   for (const double shift : {-full_turn, 0.0, full_turn}) {
     const double begin = std::max(0.0, middle + shift - half);

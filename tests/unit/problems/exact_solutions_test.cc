@@ -1,133 +1,158 @@
-// The exact solutions that scenes with a geometry of their own may name: Hooke's law and equilibrium by finite
-// differences, free boundaries, the stress far away and the concentration factors.
+// Every exact solution that the project ships satisfies Hooke's law and equilibrium, by finite differences.
 
-#include "comparisons/problems/exact_solutions.h"
+#include "comparisons/benchmarks/cantilever/exact_solution.h"
+#include "comparisons/benchmarks/plate_with_hole/exact_solution.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace {
 
 using namespace comparisons::problems;
+namespace cantilever = comparisons::benchmarks::cantilever;
+namespace plate_with_hole = comparisons::benchmarks::plate_with_hole;
 
-Vector2 displacement(const ExactSolution &solution, const Point2 &point) {
-  Vector2 u;
-  solution.displacement({&point, 1}, {&u, 1});
-  return u;
+struct Case {
+  std::string name;
+  Material material;
+  ExactSolution exact;
+  VectorField body_force; ///< empty: none
+  std::vector<Point2> points;
+  /// Length over which the solution changes, m.
+  double length;
+};
+
+std::vector<Point2> around_the_hole() {
+  std::vector<Point2> points;
+  for (const double r : {1., 1.1, 1.7, 3., 9.})
+    for (int k = 0; k < 16; ++k) {
+      const double angle = .1 + 2 * M_PI * k / 16;
+      points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+  return points;
 }
 
-Stress2 stress(const ExactSolution &solution, const Point2 &point) {
-  Stress2 s;
-  solution.stress({&point, 1}, {&s, 1});
-  return s;
+/// The table: a new exact solution gets a line here.
+std::vector<Case> all_solutions() {
+  std::vector<Case> cases;
+  const cantilever::Plate plate{1, .2, 1e6, {.3, -.1}};
+  const std::vector<Point2> in_plate{{.35, -.08}, {.7, 0}, {1.2, .09}, {.31, .05}, {.9, -.02}};
+  for (const bool plane_strain : {false, true})
+    for (const double nu : {0., .33, .49}) {
+      const Material material{226.9e9, nu, plane_strain};
+      const std::string model = (plane_strain ? ", plane strain, nu = " : ", plane stress, nu = ") + std::to_string(nu);
+      const auto add_cantilever = [&](const std::string &name, const cantilever::Solution &solution) {
+        cases.push_back({name + model, material, solution.exact, solution.body_force, in_plate, plate.width});
+      };
+      add_cantilever("cantilever bending", cantilever::bending(plate, material));
+      add_cantilever("cantilever linear", cantilever::linear(plate, material));
+      add_cantilever("cantilever trigonometric", cantilever::trigonometric(plate, material));
+      cases.push_back(
+          {"Kirsch" + model, material, plate_with_hole::kirsch(1, 1e9, material), {}, around_the_hole(), 1});
+    }
+  return cases;
 }
 
-/// Central difference of sixth order along axis k; its error is about (h / r)^6 / 140 of the value.
-template <typename Function>
-auto derivative(Function f, const Point2 &point, std::size_t k, double h) {
-  auto result = f(point);
-  result = {};
-  const double coefficients[] = {0.75, -0.15, 1.0 / 60};
-  for (int i = 1; i <= 3; ++i) {
-    Point2 forward = point;
-    Point2 backward = point;
-    forward[k] += i * h;
-    backward[k] -= i * h;
-    const auto a = f(forward);
-    const auto b = f(backward);
-    for (std::size_t j = 0; j < result.size(); ++j)
-      result[j] += coefficients[i - 1] * (a[j] - b[j]) / h;
-  }
+/// Central difference of sixth order of component `c` of a field along axis k.
+template <typename Value, typename Field>
+Value slope(const Field &field, const Point2 &x, std::size_t k, double step) {
+  constexpr std::array<double, 3> weights{45. / 60, -9. / 60, 1. / 60};
+  Value result{};
+  for (std::size_t m = 0; m < 3; ++m)
+    for (const double sign : {1., -1.}) {
+      std::array<Point2, 1> point{x};
+      point[0][k] += sign * double(m + 1) * step;
+      std::array<Value, 1> value{};
+      field(point, value);
+      for (std::size_t c = 0; c < value[0].size(); ++c)
+        result[c] += sign * weights[m] * value[0][c] / step;
+    }
   return result;
 }
 
-/// Hooke's law and equilibrium at a point, relative to the stress there (1e-8).
-void expect_elastic(const ExactSolution &solution, const Material &material, const Point2 &point, double length) {
-  const double h = 2e-3 * length;
-  const auto u = [&](const Point2 &p) { return displacement(solution, p); };
-  const auto s = [&](const Point2 &p) { return stress(solution, p); };
-  const auto u_1 = derivative(u, point, 0, h);
-  const auto u_2 = derivative(u, point, 1, h);
-  const auto s_1 = derivative(s, point, 0, h);
-  const auto s_2 = derivative(s, point, 1, h);
-  const double e = material.youngs_modulus;
-  const double nu = material.poisson_ratio;
-  const double mu = e / (2 * (1 + nu));
-  const double lambda = material.plane_strain ? e * nu / ((1 + nu) * (1 - 2 * nu)) : e * nu / ((1 + nu) * (1 - nu));
-  const Stress2 hooke{(lambda + 2 * mu) * u_1[0] + lambda * u_2[1], lambda * u_1[0] + (lambda + 2 * mu) * u_2[1],
-                      mu * (u_1[1] + u_2[0])};
-  const auto value = s(point);
-  const double scale = std::hypot(value[0], value[1], value[2]);
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(hooke[k], value[k], 1e-8 * scale) << "component " << k << " at " << point[0] << ", " << point[1];
-  EXPECT_NEAR(s_1[0] + s_2[2], 0, 1e-8 * scale / length) << point[0] << ", " << point[1];
-  EXPECT_NEAR(s_1[2] + s_2[1], 0, 1e-8 * scale / length) << point[0] << ", " << point[1];
-}
+/// Truncation is of the order (step / length)^6 = 1e-12 times some hundred, rounding 1e-16 length / step = 1e-14 of the
+/// displacement, which is up to 1e4 strains times the length in the slender plate: below 1e-9 of the stress.
+constexpr double relative_step = .01;
+constexpr double tolerance = 1e-8;
 
-const Material materials[] = {{200e9, 0.3, false}, {70e9, 0.33, true}, {1, 0, false}};
-
-TEST(ExactSolutions, the_elliptic_hole_is_elastic) {
-  for (const auto &material : materials)
-    for (const double a : {0.5, 1.0, 2.0, 5.0}) {
-      const auto solution = elliptic_hole(a, 1, 1e6, material);
-      for (int i = 0; i < 12; ++i) {
-        const double t = 0.1 + 2 * std::numbers::pi * i / 12;
-        const double r = 1.3 + 0.2 * i;
-        expect_elastic(solution, material, {r * a * std::cos(t), r * std::sin(t)}, std::min(a, 1.0) / std::max(a, 1.0));
-      }
+TEST(ExactSolutions, satisfy_hookes_law) {
+  for (const auto &test : all_solutions()) {
+    const double nu = test.material.poisson_ratio;
+    const double shear = test.material.youngs_modulus / (2 * (1 + nu));
+    const double lambda = test.material.plane_strain ? 2 * shear * nu / (1 - 2 * nu) : 2 * shear * nu / (1 - nu);
+    double largest = 0;
+    std::vector<Stress2> stress(test.points.size());
+    test.exact.stress(test.points, stress);
+    for (const auto &s : stress)
+      for (const double component : s)
+        largest = std::max(largest, std::abs(component));
+    ASSERT_GT(largest, 0) << test.name;
+    for (std::size_t i = 0; i < test.points.size(); ++i) {
+      const auto u_1 = slope<Vector2>(test.exact.displacement, test.points[i], 0, relative_step * test.length);
+      const auto u_2 = slope<Vector2>(test.exact.displacement, test.points[i], 1, relative_step * test.length);
+      const double trace = u_1[0] + u_2[1];
+      EXPECT_NEAR(stress[i][0], lambda * trace + 2 * shear * u_1[0], tolerance * largest) << test.name;
+      EXPECT_NEAR(stress[i][1], lambda * trace + 2 * shear * u_2[1], tolerance * largest) << test.name;
+      EXPECT_NEAR(stress[i][2], shear * (u_2[0] + u_1[1]), tolerance * largest) << test.name;
     }
-}
-
-TEST(ExactSolutions, the_elliptic_hole_is_free_and_concentrates_the_stress) {
-  for (const double a : {0.5, 1.0, 2.0, 5.0}) {
-    const auto solution = elliptic_hole(a, 1, 3e6, materials[0]);
-    for (int i = 0; i < 16; ++i) {
-      const double t = 2 * std::numbers::pi * i / 16;
-      const auto s = stress(solution, {a * std::cos(t), std::sin(t)});
-      Vector2 n{std::cos(t) / a, std::sin(t)};
-      const double length = std::hypot(n[0], n[1]);
-      n = {n[0] / length, n[1] / length};
-      EXPECT_NEAR(s[0] * n[0] + s[2] * n[1], 0, 1e-9 * 3e6) << a << ", " << t;
-      EXPECT_NEAR(s[2] * n[0] + s[1] * n[1], 0, 1e-9 * 3e6) << a << ", " << t;
-    }
-    EXPECT_NEAR(stress(solution, {a, 0})[1] / 3e6, 1 + 2 * a, 1e-9); // Inglis
-    EXPECT_NEAR(stress(solution, {0, 1})[0] / 3e6, -1, 1e-9);
-    const auto far = stress(solution, {1e5 * a, 2e5 * a});
-    EXPECT_NEAR(far[0] / 3e6, 0, 1e-9);
-    EXPECT_NEAR(far[1] / 3e6, 1, 1e-9);
-    EXPECT_NEAR(far[2] / 3e6, 0, 1e-9);
   }
 }
 
-/// Kirsch's solution for the round hole: s22 along y = 0 is 1 + r^-2 / 2 + 3 r^-4 / 2.
-TEST(ExactSolutions, a_round_elliptic_hole_is_kirschs) {
-  const auto solution = elliptic_hole(1, 1, 1, materials[1]);
-  for (const double r : {1.0, 1.1, 1.5, 2.0, 4.0}) {
-    EXPECT_NEAR(stress(solution, {r, 0})[1], 1 + 0.5 / (r * r) + 1.5 / std::pow(r, 4), 1e-12);
-    EXPECT_NEAR(stress(solution, {r, 0})[0], 1.5 / (r * r) - 1.5 / std::pow(r, 4), 1e-12);
-  }
+TEST(ExactSolutions, are_in_equilibrium) {
+  for (const auto &test : all_solutions())
+    for (const auto &x : test.points) {
+      const auto s_1 = slope<Stress2>(test.exact.stress, x, 0, relative_step * test.length);
+      const auto s_2 = slope<Stress2>(test.exact.stress, x, 1, relative_step * test.length);
+      std::array<Point2, 1> point{x};
+      std::array<Vector2, 1> force{};
+      if (test.body_force)
+        test.body_force(point, force);
+      std::array<Stress2, 1> stress{};
+      test.exact.stress(point, stress);
+      double scale = std::abs(force[0][0]) + std::abs(force[0][1]);
+      for (std::size_t c = 0; c < 3; ++c)
+        scale = std::max({scale, std::abs(s_1[c]), std::abs(s_2[c]), std::abs(stress[0][c]) / test.length});
+      EXPECT_NEAR(s_1[0] + s_2[2] + force[0][0], 0, tolerance * scale) << test.name << " at " << x[0] << ", " << x[1];
+      EXPECT_NEAR(s_1[2] + s_2[1] + force[0][1], 0, tolerance * scale) << test.name << " at " << x[0] << ", " << x[1];
+    }
 }
 
-TEST(ExactSolutions, the_reentrant_corner_is_elastic_and_its_faces_are_free) {
-  EXPECT_NEAR(reentrant_corner_exponent(), 0.544483737, 5e-10); // as printed by Szabo & Babuska
-  for (const auto &material : materials) {
-    const auto solution = reentrant_corner(2e6, material);
-    for (int i = 0; i < 12; ++i) {
-      const double t = -0.45 * std::numbers::pi + 1.4 * std::numbers::pi * i / 11;
-      const double r = 0.2 + 0.07 * i;
-      expect_elastic(solution, material, {r * std::cos(t), r * std::sin(t)}, 0.1);
-    }
-    for (const double r : {0.01, 0.3, 1.0}) {
-      const double scale = 2e6 * std::pow(r, -0.46);
-      const auto below = stress(solution, {0, -r}); // normal in x
-      const auto left = stress(solution, {-r, 0});  // normal in y
-      EXPECT_NEAR(below[0], 0, 1e-12 * scale);
-      EXPECT_NEAR(below[2], 0, 1e-12 * scale);
-      EXPECT_NEAR(left[1], 0, 1e-12 * scale);
-      EXPECT_NEAR(left[2], 0, 1e-12 * scale);
-    }
+TEST(Kirsch, leaves_the_hole_free_and_concentrates_the_stress_threefold) {
+  const auto exact = plate_with_hole::kirsch(2, 5, {1, .25, true});
+  std::vector<Point2> edge;
+  for (int k = 0; k <= 40; ++k)
+    edge.push_back({2 * std::cos(.05 * M_PI * k), 2 * std::sin(.05 * M_PI * k)});
+  std::vector<Stress2> s(edge.size());
+  exact.stress(edge, s);
+  for (std::size_t i = 0; i < edge.size(); ++i) {
+    const auto [x, y] = edge[i];
+    EXPECT_NEAR(s[i][0] * x + s[i][2] * y, 0, 1e-13 * 15);
+    EXPECT_NEAR(s[i][2] * x + s[i][1] * y, 0, 1e-13 * 15);
+    // sigma_tt = sigma0 (1 - 2 cos 2 theta), (4.7) at r = b.
+    EXPECT_NEAR(s[i][0] + s[i][1], 5 * (1 - 2 * (x * x - y * y) / 4), 1e-13 * 15);
+  }
+  // (4.10): sigma_11 on the x2 axis; and u_2 there, Zhang & Batra 2008 below (6.25), with 1/2 b^2 / x2 as printed.
+  const std::vector<Point2> axis{{0, 2}, {0, 3}, {0, 8}};
+  std::vector<Stress2> on_axis(3);
+  std::vector<Vector2> u(3);
+  exact.stress(axis, on_axis);
+  exact.displacement(axis, u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double q = 4 / (axis[i][1] * axis[i][1]);
+    EXPECT_NEAR(on_axis[i][0], 5 * (1 + .5 * q + 1.5 * q * q), 1e-13 * 15);
+    const double nu = .25 / .75;
+    const double r = axis[i][1];
+    const double e = 1 / (1 - .0625);
+    EXPECT_NEAR(u[i][1],
+                (1 + nu) / e * 5 *
+                    (-nu / (1 + nu) * r - (1 - nu) / (1 + nu) * 4 / r - .5 * 4 / r + .5 * 16 / (r * r * r)),
+                1e-13 * std::abs(u[i][1]));
+    EXPECT_NEAR(u[i][0], 0, 1e-13 * std::abs(u[i][1]));
   }
 }
 
