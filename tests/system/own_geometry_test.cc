@@ -61,7 +61,7 @@ TEST(OwnGeometry, the_page_leads_to_a_report) {
 
 TEST(OwnGeometry, init_writes_a_scene_to_fill_in) {
   const Folder folder;
-  const auto written = run_here({"init", "geometry"}, folder.path());
+  const auto written = run_here({"init", "geometry", "-"}, folder.path());
   EXPECT_EQ(written.exit_code, 0) << written.err;
   EXPECT_NE(written.out.find("[geometry]"), std::string::npos) << written.out;
   folder.write("scene.toml", written.out);
