@@ -37,6 +37,11 @@ nlohmann::ordered_json to_json(const Scene &scene) {
     json["problem"].push_back({{"label", variant.label}, {"parameters", to_json(variant.parameters)}});
   json["material"] = to_json(scene.material);
   json["effects"] = scene.effects;
+  for (const auto &[effect, parameters] : scene.effect_parameters)
+    if (!parameters.all().empty())
+      json["effect_parameters"][effect] = to_json(parameters);
+  if (!scene.time.all().empty())
+    json["time"] = to_json(scene.time);
   json["methods"] = nlohmann::ordered_json::array();
   for (const MethodRequest &request : scene.methods) {
     nlohmann::ordered_json method{{"name", request.name},

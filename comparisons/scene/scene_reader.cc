@@ -42,6 +42,7 @@ std::optional<Scene> SceneReader::read() {
   read_top();
   read_problem_and_material();
   read_effects();
+  read_time();
   for (const auto &[name, location] : effects_)
     scene_.effects.push_back(name);
   std::ranges::sort(scene_.effects);
@@ -58,6 +59,7 @@ std::optional<Scene> SceneReader::read() {
   scene_.name = std::filesystem::path(file_).stem().string();
   scene_.benchmark = benchmark_->name;
   scene_.material = single(material_);
+  scene_.time = single(time_);
   scene_.study = single(study_);
   scene_.output = single(output_);
   return std::move(scene_);
@@ -85,6 +87,7 @@ std::vector<KeyHome> SceneReader::key_homes() const {
   if (benchmark_ != nullptr) {
     add(benchmark_->problem, "[problem]");
     add(benchmark_->material, "[material]");
+    add(benchmark_->time, "[time]");
   }
   add(study_declarations(), "[study]");
   add(output_declarations(), "[output]");
@@ -98,14 +101,16 @@ std::vector<KeyHome> SceneReader::key_homes() const {
     homes.push_back({key, "[[method]] with name = " + names});
   for (const auto &key : common_method_keys())
     homes.push_back({key, "[[method]]"});
-  for (const auto &effect : vocabulary_.effects)
+  for (const auto &effect : vocabulary_.effects) {
     homes.push_back({effect.name, "[effects]"});
+    add(effect.parameters, fmt::format("[effects.{}]", effect.name));
+  }
   return homes;
 }
 
 void SceneReader::read_top() {
-  const std::vector<std::string> tables{"problem", "material", "effects", "method", "study", "output"};
-  const std::vector<std::string> reserved{"geometry", "boundary", "time"};
+  const std::vector<std::string> tables{"problem", "material", "effects", "time", "method", "study", "output"};
+  const std::vector<std::string> reserved{"geometry", "boundary"};
   std::vector<std::string> known{"schema", "title", "benchmark"};
   known.insert(known.end(), tables.begin(), tables.end());
   const auto has = [](const auto &names, const auto &name) { return std::ranges::find(names, name) != names.end(); };
@@ -138,7 +143,7 @@ void SceneReader::read_reserved_tables() {
       diagnostics_.error(entry.key_location, entry.key,
                          "several materials belong to a geometry of one's own; " + solved,
                          "write [material] and its keys below");
-    else if (entry.key == "geometry" || entry.key == "boundary" || entry.key == "time")
+    else if (entry.key == "geometry" || entry.key == "boundary")
       diagnostics_.error(entry.key_location, entry.key,
                          fmt::format("the table '{}' belongs to a geometry of one's own; {}", entry.key, solved),
                          "name one with benchmark = \"...\" and remove this table");
@@ -218,7 +223,12 @@ void SceneReader::read_problem_and_material() {
 }
 
 void SceneReader::read_study() {
-  const auto declarations = without(study_declarations(), "levels");
+  auto declarations = without(study_declarations(), "levels");
+  for (auto &declaration : declarations)
+    if (declaration.name == "analysis" && benchmark_ != nullptr) {
+      declaration.choices = benchmark_->analyses;
+      declaration.default_value = benchmark_->analyses.front();
+    }
   const Node *node = table("study");
   study_ = read_table(node,
                       {.declarations = declarations,
