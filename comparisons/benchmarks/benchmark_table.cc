@@ -1,12 +1,15 @@
 #include "comparisons/benchmarks/benchmark_table.h"
 
+#include "comparisons/benchmarks/bar_wave/problem.h"
 #include "comparisons/benchmarks/cantilever/problem.h"
+#include "comparisons/benchmarks/detonation/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
 #include "comparisons/benchmarks/geometry/benchmark.h"
 #include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
 #include "comparisons/benchmarks/rod_vibration/problem.h"
+#include "comparisons/benchmarks/shock_tube/problem.h"
 #include "comparisons/benchmarks/smoothing_functions/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
@@ -33,6 +36,9 @@ std::vector<study::Benchmark> benchmark_table() {
           rod_derivative::benchmark(),
           rod_static::benchmark(),
           rod_vibration::benchmark(),
+          bar_wave::benchmark(),
+          shock_tube::benchmark(),
+          detonation::benchmark(),
           geometry::benchmark()};
 }
 

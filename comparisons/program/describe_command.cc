@@ -116,6 +116,12 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
   else
     fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
                scene::describe_declarations(benchmark.material));
+  for (const auto &effect : vocabulary.effects)
+    if (const auto called = scene->effect_parameters.find(effect.name);
+        called != scene->effect_parameters.end() && !effect.parameters.empty())
+      fmt::print("[effects.{}]\n{}\n", effect.name, scene::describe_declarations(effect.parameters));
+  if (!benchmark.time.empty())
+    fmt::print("[time]\n{}\n", scene::describe_declarations(benchmark.time));
   std::vector<std::string> shown;
   for (const auto &request : scene->methods) {
     if (std::find(shown.begin(), shown.end(), request.name) != shown.end())

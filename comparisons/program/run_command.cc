@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <set>
@@ -79,23 +80,40 @@ void add_scene_json(const std::vector<scene::Scene> &scenes, reports::Results &r
     results.scene.push_back(scene::to_json(scene));
 }
 
-/// Progress on one line of the terminal; silent when it is not one.
+/// Progress on one line of the terminal. Elsewhere only long cells are worth a line, one every ten seconds.
 class Progress {
 public:
-  explicit Progress(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
+  explicit Progress(bool quiet) : quiet_(quiet), on_(!quiet && isatty(STDERR_FILENO) == 1) {}
   ~Progress() { show({}); }
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
 
   void show(const std::string &text) {
+    cell_ = text;
+    last_line_ = Clock::now();
     if (!on_)
       return;
     fmt::print(stderr, "\r\033[K{}", text);
     std::fflush(stderr);
   }
 
+  /// From within the cell shown last.
+  void show_within(const std::string &text) {
+    if (on_) {
+      fmt::print(stderr, "\r\033[K{}: {}", cell_, text);
+      std::fflush(stderr);
+    } else if (!quiet_ && Clock::now() - last_line_ >= std::chrono::seconds(10)) {
+      fmt::print(stderr, "{}: {}\n", cell_, text);
+      last_line_ = Clock::now();
+    }
+  }
+
 private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_;
   bool on_;
+  std::string cell_;
+  Clock::time_point last_line_ = Clock::now();
 };
 
 void settle_published(const Plan &plan, reports::Results &results) {
@@ -140,6 +158,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     run.directory = plan.directory;
     run.stop_requested = [] { return Interrupt::requested(); };
     run.progress = [&](const std::string &text) { progress.show(text); };
+    run.long_progress = [&](const std::string &text) { progress.show_within(text); };
     for (const auto &scene : plan.scenes) {
       if (Interrupt::requested())
         break;

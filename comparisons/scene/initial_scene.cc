@@ -141,6 +141,8 @@ std::string initial_scene(const BenchmarkDescription &benchmark, std::span<const
     for (const auto &effect : benchmark.effects)
       text += effect + " = true\n";
   }
+  if (!benchmark.time.empty())
+    text += "\n[time]\n" + key_lines(benchmark.time, true);
   for (const auto &method : methods) {
     text += fmt::format("\n[[method]]  # {}\nname = {}\n", method.meaning, toml_string(method.name));
     text += "# label = \"...\"                      # name in the tables\n";
@@ -149,6 +151,11 @@ std::string initial_scene(const BenchmarkDescription &benchmark, std::span<const
   text += fmt::format("\n[study]\nlevels = [{}]\n", level_list(benchmark, levels));
   auto study = study_declarations();
   std::erase_if(study, [](const Declaration &d) { return d.name == "levels"; });
+  for (auto &declaration : study)
+    if (declaration.name == "analysis") {
+      declaration.choices = benchmark.analyses;
+      declaration.default_value = benchmark.analyses.front();
+    }
   text += key_lines(study, true);
   text += "\n[output]\n";
   text += key_lines(output_declarations(), true);

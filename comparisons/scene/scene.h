@@ -4,6 +4,7 @@
 #include "comparisons/scene/parameters.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ struct MethodRequest {
   Parameters parameters;
   /// The method's own levels, else the study's.
   std::vector<Level> levels;
-  /// "ok" or "refused": the outcome that the scene declares as expected.
+  /// "ok", "refused" or "failed": the outcome that the scene declares as expected.
   std::string expect = "ok";
   /// If not empty: the scene calls for an effect that this method cannot do; its cells are
   /// refused with this reason before any computing.
@@ -65,6 +66,10 @@ struct Scene {
   std::vector<ProblemVariant> problems;
   /// Names of the effects called for, sorted.
   std::vector<std::string> effects;
+  /// The keys of each effect called for, by its name.
+  std::map<std::string, Parameters> effect_parameters;
+  /// [time]; empty if the benchmark knows no time.
+  Parameters time;
   std::vector<MethodRequest> methods;
   /// Without the levels.
   Parameters study;

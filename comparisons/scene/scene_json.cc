@@ -55,6 +55,11 @@ nlohmann::ordered_json to_json(const Scene &scene) {
       json["body_force"] = to_json(tables.body_force->keys);
   }
   json["effects"] = scene.effects;
+  for (const auto &[effect, parameters] : scene.effect_parameters)
+    if (!parameters.all().empty())
+      json["effect_parameters"][effect] = to_json(parameters);
+  if (!scene.time.all().empty())
+    json["time"] = to_json(scene.time);
   json["methods"] = nlohmann::ordered_json::array();
   for (const MethodRequest &request : scene.methods) {
     nlohmann::ordered_json method{{"name", request.name},

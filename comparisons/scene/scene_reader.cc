@@ -43,6 +43,7 @@ std::optional<Scene> SceneReader::read() {
   read_top();
   read_problem_and_material();
   read_effects();
+  read_time();
   for (const auto &[name, location] : effects_)
     scene_.effects.push_back(name);
   std::ranges::sort(scene_.effects);
@@ -67,6 +68,7 @@ std::optional<Scene> SceneReader::read() {
     scene_.name = scene_.name == "scene" ? folder : folder + "/" + scene_.name;
   scene_.benchmark = benchmark_->name;
   scene_.material = single(material_);
+  scene_.time = single(time_);
   scene_.study = single(study_);
   scene_.output = single(output_);
   return std::move(scene_);
@@ -96,6 +98,7 @@ std::vector<KeyHome> SceneReader::key_homes() const {
   if (benchmark_ != nullptr) {
     add(benchmark_->problem, "[problem]");
     add(benchmark_->material, benchmark_->own_geometry ? "[[material]]" : "[material]");
+    add(benchmark_->time, "[time]");
   }
   if (has_geometry()) {
     add(geometry_declarations(), "[geometry]");
@@ -115,15 +118,17 @@ std::vector<KeyHome> SceneReader::key_homes() const {
     homes.push_back({key, "[[method]] with name = " + names});
   for (const auto &key : common_method_keys())
     homes.push_back({key, "[[method]]"});
-  for (const auto &effect : vocabulary_.effects)
+  for (const auto &effect : vocabulary_.effects) {
     homes.push_back({effect.name, "[effects]"});
+    add(effect.parameters, fmt::format("[effects.{}]", effect.name));
+  }
   return homes;
 }
 
 void SceneReader::read_top() {
-  std::vector<std::string> tables{"problem", "material", "effects", "method", "study", "output"};
+  std::vector<std::string> tables{"problem", "material", "effects", "time", "method", "study", "output"};
   const std::vector<std::string> of_geometry{"geometry", "boundary", "reference", "quantity"};
-  const std::vector<std::string> reserved{"geometry", "boundary", "reference", "quantity", "time"};
+  const std::vector<std::string> &reserved = of_geometry;
   if (has_geometry())
     tables.insert(tables.end(), of_geometry.begin(), of_geometry.end());
   std::vector<std::string> known{"schema", "title", "benchmark"};
@@ -152,18 +157,15 @@ void SceneReader::read_reserved_tables() {
   const auto own = std::ranges::find(vocabulary_.benchmarks, true, &BenchmarkDescription::own_geometry);
   for (const Entry &entry : root_.entries) {
     const bool materials = entry.key == "material" && entry.value.is(Node::Kind::array);
-    const bool time = entry.key == "time";
-    if (has_geometry() && own != vocabulary_.benchmarks.end() && !time)
+    if (has_geometry() && own != vocabulary_.benchmarks.end())
       continue;
     if (materials)
       diagnostics_.error(entry.key_location, entry.key, "several materials belong to a geometry of one's own",
                          "write [material] and its keys below, or add [geometry] with file = \"...\"");
-    else if (entry.key == "geometry" || entry.key == "boundary" || entry.key == "reference" ||
-             entry.key == "quantity" || time)
+    else if (entry.key == "geometry" || entry.key == "boundary" || entry.key == "reference" || entry.key == "quantity")
       diagnostics_.error(entry.key_location, entry.key,
-                         fmt::format("the table '{}' belongs to {}", entry.key,
-                                     time ? "motion, which this version does not solve" : "a geometry of one's own"),
-                         time ? "remove this table" : "add [geometry] with file = \"...\", or remove this table");
+                         fmt::format("the table '{}' belongs to a geometry of one's own", entry.key),
+                         "add [geometry] with file = \"...\", or remove this table");
   }
 }
 
@@ -252,7 +254,12 @@ void SceneReader::read_problem_and_material() {
 }
 
 void SceneReader::read_study() {
-  const auto declarations = without(study_declarations(), "levels");
+  auto declarations = without(study_declarations(), "levels");
+  for (auto &declaration : declarations)
+    if (declaration.name == "analysis" && benchmark_ != nullptr) {
+      declaration.choices = benchmark_->analyses;
+      declaration.default_value = benchmark_->analyses.front();
+    }
   const Node *node = table("study");
   study_ = read_table(node,
                       {.declarations = declarations,

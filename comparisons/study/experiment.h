@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 
 namespace comparisons::study {
 
@@ -34,6 +37,15 @@ public:
   /// Also makes the points of the level.
   /// @throws std::exception if the level does not fit
   virtual Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const = 0;
+
+  /// Where a long `run` tells how far it is, a line at a time.
+  void report_to(std::function<void(const std::string &)> progress) { progress_ = std::move(progress); }
+
+protected:
+  const std::function<void(const std::string &)> &progress() const { return progress_; }
+
+private:
+  std::function<void(const std::string &)> progress_;
 };
 
 /// Path below the results folder for a curve of a cell: "series/<benchmark>-<scene>-...-<name>.csv".

@@ -40,6 +40,7 @@ public:
     const auto &benchmark = find_benchmark(catalogue, scene.benchmark);
     for (const auto &variant : scene.problems) {
       experiments_.push_back(benchmark.make_experiment(scene, variant, catalogue.methods));
+      experiments_.back()->report_to(options.long_progress);
       for (const auto &request : scene.methods)
         for (const auto &level : request.levels)
           measured_.push_back({{&scene, &variant, experiments_.back().get(), &request, &level}, {}, {}});
