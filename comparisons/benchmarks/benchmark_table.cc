@@ -1,10 +1,15 @@
 #include "comparisons/benchmarks/benchmark_table.h"
 
+#include "comparisons/benchmarks/bar_wave/problem.h"
 #include "comparisons/benchmarks/cantilever/problem.h"
+#include "comparisons/benchmarks/detonation/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
+#include "comparisons/benchmarks/geometry/benchmark.h"
+#include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
 #include "comparisons/benchmarks/rod_vibration/problem.h"
+#include "comparisons/benchmarks/shock_tube/problem.h"
 #include "comparisons/benchmarks/smoothing_functions/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
@@ -25,11 +30,16 @@ study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make
 
 std::vector<study::Benchmark> benchmark_table() {
   return {plane(cantilever::description(), cantilever::make_problem),
+          plane(plate_with_hole::description(), plate_with_hole::make_problem),
           function_approximation::benchmark(),
           smoothing_functions::benchmark(),
           rod_derivative::benchmark(),
           rod_static::benchmark(),
-          rod_vibration::benchmark()};
+          rod_vibration::benchmark(),
+          bar_wave::benchmark(),
+          shock_tube::benchmark(),
+          detonation::benchmark(),
+          geometry::benchmark()};
 }
 
 } // namespace comparisons::benchmarks

@@ -406,6 +406,7 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   const auto &parameters = request.parameters;
+  const auto problem = translate(request.statement); // first: it refuses what particles cannot do
   meshless::linear_algebra::Stopwatch watch;
   auto cloud = request.cloud();
   const bool regular = cloud.regular;
@@ -413,7 +414,6 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   const double points_seconds = watch.lap();
   const BasisPointer basis = meshless::basis::make_basis<2>(
       parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel_of(parameters, regular));
-  const auto problem = translate(request.statement);
   const double test_radius =
       has_subdomains(form) ? test_radius_of(parameters, regular, smoothing_length_of(parameters, regular)) : 0;
   std::size_t n_enlarged = 0;

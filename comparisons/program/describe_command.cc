@@ -1,5 +1,6 @@
 #include "comparisons/program/describe_command.h"
 
+#include "comparisons/program/geometry_description.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/reports.h"
@@ -107,9 +108,20 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
       std::find(scene->effects.begin(), scene->effects.end(), "body_force") == scene->effects.end()
           ? ""
           : "; the body force is evaluated at quadrature points, not stored");
+  if (scene->geometry != nullptr)
+    fmt::print("\n{}", describe_geometry(*scene));
   print_cells(*scene, catalogue);
-  fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
-             scene::describe_declarations(benchmark.material));
+  if (benchmark.own_geometry)
+    fmt::print("\n{}", describe_geometry_keys());
+  else
+    fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
+               scene::describe_declarations(benchmark.material));
+  for (const auto &effect : vocabulary.effects)
+    if (const auto called = scene->effect_parameters.find(effect.name);
+        called != scene->effect_parameters.end() && !effect.parameters.empty())
+      fmt::print("[effects.{}]\n{}\n", effect.name, scene::describe_declarations(effect.parameters));
+  if (!benchmark.time.empty())
+    fmt::print("[time]\n{}\n", scene::describe_declarations(benchmark.time));
   std::vector<std::string> shown;
   for (const auto &request : scene->methods) {
     if (std::find(shown.begin(), shown.end(), request.name) != shown.end())

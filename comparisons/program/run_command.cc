@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <set>
@@ -79,23 +80,40 @@ void add_scene_json(const std::vector<scene::Scene> &scenes, reports::Results &r
     results.scene.push_back(scene::to_json(scene));
 }
 
-/// Progress on one line of the terminal; silent when it is not one.
+/// Progress on one line of the terminal. Elsewhere only long cells are worth a line, one every ten seconds.
 class Progress {
 public:
-  explicit Progress(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
+  explicit Progress(bool quiet) : quiet_(quiet), on_(!quiet && isatty(STDERR_FILENO) == 1) {}
   ~Progress() { show({}); }
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
 
   void show(const std::string &text) {
+    cell_ = text;
+    last_line_ = Clock::now();
     if (!on_)
       return;
     fmt::print(stderr, "\r\033[K{}", text);
     std::fflush(stderr);
   }
 
+  /// From within the cell shown last.
+  void show_within(const std::string &text) {
+    if (on_) {
+      fmt::print(stderr, "\r\033[K{}: {}", cell_, text);
+      std::fflush(stderr);
+    } else if (!quiet_ && Clock::now() - last_line_ >= std::chrono::seconds(10)) {
+      fmt::print(stderr, "{}: {}\n", cell_, text);
+      last_line_ = Clock::now();
+    }
+  }
+
 private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_;
   bool on_;
+  std::string cell_;
+  Clock::time_point last_line_ = Clock::now();
 };
 
 void settle_published(const Plan &plan, reports::Results &results) {
@@ -140,6 +158,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     run.directory = plan.directory;
     run.stop_requested = [] { return Interrupt::requested(); };
     run.progress = [&](const std::string &text) { progress.show(text); };
+    run.long_progress = [&](const std::string &text) { progress.show_within(text); };
     for (const auto &scene : plan.scenes) {
       if (Interrupt::requested())
         break;
@@ -206,16 +225,19 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
                        const study::Catalogue &catalogue) {
   std::vector<std::string> known;
   for (const auto &benchmark : catalogue.benchmarks)
-    known.push_back(benchmark.description.name);
+    if (!benchmark.description.own_geometry)
+      known.push_back(benchmark.description.name);
+  const auto all = known;
+  known.emplace_back("examples");
   std::vector<fs::path> files;
-  for (const auto &name : benchmarks.empty() ? known : benchmarks) {
+  for (const auto &name : benchmarks.empty() ? all : benchmarks) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const auto near = scene::nearest_name(name, known);
       fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "),
                  near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
       return usage_error;
     }
-    const auto scenes = shipped_scenes(name);
+    const auto scenes = name == "examples" ? example_scenes() : shipped_scenes(name);
     files.insert(files.end(), scenes.begin(), scenes.end());
   }
   auto scenes = read_scenes(files, options, catalogue);

@@ -73,10 +73,11 @@ Level stand_in(int counts_per_level) {
 } // namespace
 
 void SceneReader::cross_check() {
-  if (benchmark_ == nullptr || !problem_.complete || !material_.complete)
+  if (benchmark_ == nullptr || !problem_.complete || !material_.complete || !time_.complete)
     return;
   const Parameters material = std::move(material_.combinations().front().parameters);
   const Parameters no_method;
+  const Parameters time = std::move(time_.combinations().front().parameters);
   CheckRunner runner(here(), diagnostics_);
   const std::vector<Level> replacement{stand_in(benchmark_->counts_per_level)};
   const auto usable = [&](const std::vector<Level> &levels) -> const std::vector<Level> & {
@@ -95,11 +96,13 @@ void SceneReader::cross_check() {
   for (const auto &method : methods_)
     collect(method.levels);
 
-  const std::vector<CheckRunner::Trust> common{{"material", material_.valid}, {"problem", problem_.valid}};
+  const std::vector<CheckRunner::Trust> common{
+      {"material", material_.valid}, {"problem", problem_.valid}, {"time", time_.valid}};
   for (const auto &variant : scene_.problems)
     for (const auto &level : usable(levels))
       runner.run(
-          benchmark_->check, {material, variant.parameters, no_method, level, {}, scene_.effects},
+          benchmark_->check,
+          {material, variant.parameters, no_method, level, {}, scene_.effects, &scene_.effect_parameters, &time},
           [&] {
             auto trusts = common;
             trusts.push_back({"study", !levels.empty()});
@@ -120,8 +123,9 @@ void SceneReader::cross_check() {
     for (const auto &variant : scene_.problems)
       for (const auto &level : usable(request.levels))
         runner.run(owner.description->check,
-                   {material, variant.parameters, request.parameters, level, owner.key, scene_.effects}, trusts,
-                   request.location, owner.description->name);
+                   {material, variant.parameters, request.parameters, level, owner.key, scene_.effects,
+                    &scene_.effect_parameters, &time},
+                   trusts, request.location, owner.description->name);
   }
 }
 

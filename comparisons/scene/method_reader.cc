@@ -36,49 +36,6 @@ std::string difference(const Parameters &from, const Parameters &to) {
 
 } // namespace
 
-void SceneReader::read_effects() {
-  const Node *node = table("effects");
-  // --set effects.NAME on a scene without [effects] changes the benchmark's own choice.
-  const bool from_override = node != nullptr && node->location.line == 0;
-  if ((node == nullptr || from_override) && benchmark_ != nullptr)
-    for (const auto &name : benchmark_->effects)
-      effects_.emplace_back(name, Location{});
-  if (node == nullptr)
-    return;
-  if (!node->is(Node::Kind::table)) {
-    diagnostics_.error(node->location, "effects", fmt::format("expected a table, found {}", describe(*node)),
-                       "write [effects] and below it, for example, elasticity = true");
-    return;
-  }
-  bool valid = true;
-  for (const Entry &entry : node->entries) {
-    const auto before = diagnostics_.all().size();
-    read_effect(entry);
-    valid = valid && diagnostics_.all().size() == before;
-  }
-  const bool wanted = benchmark_ != nullptr && !benchmark_->effects.empty();
-  if (valid && wanted && effects_.empty())
-    diagnostics_.error(node->location, "effects", "the scene calls for no effect; nothing would be computed",
-                       fmt::format("write {} = true, or remove the table", benchmark_->effects.front()));
-}
-
-void SceneReader::read_effect(const Entry &entry) {
-  const auto names = names_of(vocabulary_.effects);
-  const std::string key = "effects." + entry.key;
-  if (!has(names, entry.key))
-    return unknown_key(entry, "effects", "[effects]", names, homes_, diagnostics_);
-  const Node &value = entry.value;
-  if (value.is(Node::Kind::table))
-    return diagnostics_.error(value.location, key,
-                              "an effect takes true or false; this version knows no parameters of effects",
-                              fmt::format("write {} = true in [effects]", entry.key));
-  if (!value.is(Node::Kind::boolean))
-    return diagnostics_.error(value.location, key, fmt::format("expected true or false, found {}", describe(value)));
-  std::erase_if(effects_, [&](const auto &effect) { return effect.first == entry.key; });
-  if (value.boolean)
-    effects_.emplace_back(entry.key, entry.key_location);
-}
-
 void SceneReader::read_methods() {
   const Node *node = table("method");
   const std::string allowed = fmt::format("{}", fmt::join(names_of(vocabulary_.methods), ", "));
@@ -161,7 +118,8 @@ void SceneReader::read_common_keys(const Node &node, MethodTable &method) {
     method.label = *label;
     method.label_location = location;
   }
-  if (const auto expect = read({.name = "expect", .type = Type::choice, .choices = {"ok", "refused"}, .meaning = ""}))
+  if (const auto expect =
+          read({.name = "expect", .type = Type::choice, .choices = {"ok", "refused", "failed"}, .meaning = ""}))
     method.expect = *expect;
   method.table.valid = method.table.valid && diagnostics_.all().size() == before;
   const Entry *levels = node.find("levels");

@@ -42,7 +42,7 @@ void set_entry(Node &table, const std::string &key, const Node &value) {
 
 std::vector<std::string> top_keys() { return {"title", "benchmark", "schema"}; }
 
-std::vector<std::string> top_tables() { return {"problem", "material", "effects", "study", "output"}; }
+std::vector<std::string> top_tables() { return {"problem", "material", "effects", "time", "study", "output"}; }
 
 std::vector<std::string> all_tops() {
   auto names = top_keys();
@@ -108,6 +108,10 @@ private:
     const std::string &top = parts[0];
     if (top == "method")
       return apply_to_methods(path, parts, value);
+    if (Entry *list = root_.find(top); list != nullptr && list->value.is(Node::Kind::array) && has(lists(), top))
+      return apply_to_list(path, parts, list->value, value);
+    if (top == "effects" && parts.size() == 3)
+      return set_effect_key(parts[1], parts[2], value);
     if (has(top_tables(), top)) {
       if (parts.size() != 2)
         return fail(path, fmt::format("a key of [{0}] has the form {0}.KEY", top));
@@ -122,6 +126,22 @@ private:
          did_you_mean(top, all_tops()));
   }
 
+  /// Lists of tables besides the methods.
+  static std::vector<std::string> lists() { return {"material", "boundary", "quantity"}; }
+
+  /// material[1].nu, or material.nu if there is one.
+  void apply_to_list(const std::string &path, const std::vector<std::string> &parts, Node &list, const Node &value) {
+    std::size_t index = 0;
+    const std::string &number = parts.size() == 3 ? parts[1] : "0";
+    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), index);
+    const bool good = status == std::errc{} && end == number.data() + number.size() && index < list.items.size();
+    if (!good || parts.size() < 2 || parts.size() > 3 || (parts.size() == 2 && list.items.size() != 1))
+      return fail(path, fmt::format("a key of [[{0}]] has the form {0}[0].KEY, with a number below {1}", parts[0],
+                                    list.items.size()));
+    if (list.items[index].is(Node::Kind::table))
+      set_entry(list.items[index], parts.back(), value);
+  }
+
   void set_in_table(const std::string &table, const std::string &key, const Node &value) {
     if (root_.find(table) == nullptr) {
       Node empty;
@@ -131,6 +151,19 @@ private:
     Node &node = root_.find(table)->value;
     if (node.is(Node::Kind::table)) // if not, the validation reports it
       set_entry(node, key, value);
+  }
+
+  /// effects.NAME.KEY also calls for the effect.
+  void set_effect_key(const std::string &effect, const std::string &key, const Node &value) {
+    Node empty;
+    empty.location = location_;
+    const Entry *effects = root_.find("effects");
+    const Entry *entry = effects != nullptr ? effects->value.find(effect) : nullptr;
+    if (entry == nullptr || !entry->value.is(Node::Kind::table))
+      set_in_table("effects", effect, empty);
+    Node &node = root_.find("effects")->value;
+    if (Entry *table = node.is(Node::Kind::table) ? node.find(effect) : nullptr)
+      set_entry(table->value, key, value);
   }
 
   /// All tables of methods, or the single one of a wrong `[method]`.

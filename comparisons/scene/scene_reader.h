@@ -52,9 +52,19 @@ private:
   void read_formats(const Node *output);
   std::vector<KeyHome> key_homes() const;
 
-  // method_reader.cc
+  // geometry_reader.cc
+  bool has_geometry() const;
+  void read_geometry();
+
+  // effects_reader.cc
   void read_effects();
   void read_effect(const Entry &entry);
+  /// The keys of an effect with the benchmark's defaults.
+  std::vector<Declaration> effect_declarations(const EffectDescription &effect) const;
+  void add_effect(const EffectDescription &effect, const Node *table, const Location &location);
+  void read_time();
+
+  // method_reader.cc
   void read_methods();
   void read_method(const Node &node, std::size_t index);
   void read_method_name(const Node &node, MethodTable &method);
@@ -81,6 +91,7 @@ private:
   const BenchmarkDescription *benchmark_ = nullptr;
   ResolvedTable problem_;
   ResolvedTable material_;
+  ResolvedTable time_;
   ResolvedTable study_;
   ResolvedTable output_;
   std::vector<std::pair<std::string, Location>> effects_;

@@ -2,31 +2,12 @@
 
 #include "comparisons/benchmarks/benchmark_table.h"
 #include "comparisons/reports/reports.h"
+#include "comparisons/study/effect_table.h"
 
 #include "meshless/basis/basis_table.h"
 #include "meshless/kernels/kernel_table.h"
 
 namespace comparisons::study {
-
-namespace {
-
-/// The closed list of effects; which method can do which is the methods' word.
-const std::vector<scene::NamedMeaning> &effect_table() {
-  static const std::vector<scene::NamedMeaning> effects{
-      {"elasticity", "linear elastic solid, small strain"},
-      {"body_force", "force per volume"},
-      {"inertia", "mass times acceleration"},
-      {"artificial_viscosity", "viscous pressure that smooths shocks"},
-      {"damping", "force against velocity"},
-      {"thermal_expansion", "strain by temperature"},
-      {"gas_pressure", "pressure of a gas by its equation of state"},
-      {"heat_conduction", "artificial heat conduction of gases"},
-      {"programmed_burn", "energy release at a prescribed detonation front"},
-  };
-  return effects;
-}
-
-} // namespace
 
 Catalogue shipped_catalogue() { return {methods::method_table(), benchmarks::benchmark_table()}; }
 

@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 
 namespace comparisons::study {
 
@@ -28,9 +31,21 @@ public:
   virtual void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
                    const std::filesystem::path &series_directory, reports::Cell &cell) const = 0;
 
+  /// Called once before the cells are run, for what all of them share and is dear, such as a reference solution.
+  virtual void prepare() const {}
+
   /// Also makes the points of the level.
   /// @throws std::exception if the level does not fit
   virtual Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const = 0;
+
+  /// Where a long `run` tells how far it is, a line at a time.
+  void report_to(std::function<void(const std::string &)> progress) { progress_ = std::move(progress); }
+
+protected:
+  const std::function<void(const std::string &)> &progress() const { return progress_; }
+
+private:
+  std::function<void(const std::string &)> progress_;
 };
 
 /// Path below the results folder for a curve of a cell: "series/<benchmark>-<scene>-...-<name>.csv".

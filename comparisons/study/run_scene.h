@@ -22,6 +22,8 @@ struct RunOptions {
   std::function<bool()> stop_requested;
   /// One line on what is done now.
   std::function<void(const std::string &)> progress;
+  /// The same from within a long cell, at most twice a second.
+  std::function<void(const std::string &)> long_progress = {};
 };
 
 /// Runs every method x level (x problem variant) of a scene: one warm-up of each cell and then

@@ -99,7 +99,7 @@ TEST(SceneOverrides, MalformedOnes) {
   EXPECT_EQ(bad(".nu=3"), "--set .nu=3: error: .nu: a part of the key is empty\n");
   EXPECT_EQ(bad("materail.nu=3"),
             "--set materail.nu=3: error: materail.nu: no such key 'materail'; a key begins with one of: "
-            "title, benchmark, schema, problem, material, effects, study, output, method (did you mean "
+            "title, benchmark, schema, problem, material, effects, time, study, output, method (did you mean "
             "'material'?)\n");
   EXPECT_EQ(bad("material=3"), "--set material=3: error: material: a key of [material] has the form material.KEY\n");
   EXPECT_EQ(bad("material.a.b=3"),

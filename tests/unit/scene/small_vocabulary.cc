@@ -1,5 +1,7 @@
 #include "small_vocabulary.h"
 
+#include "comparisons/scene/time_keys.h"
+
 #include <stdexcept>
 
 namespace scene_tests {
@@ -77,7 +79,10 @@ BenchmarkDescription bar() {
                         .meaning = "density, in kg/m^3"}},
           .effects = {},
           .check = {},
-          .counts_per_level = 1};
+          .counts_per_level = 1,
+          .time = time_declarations({.end = 2, .cfl = 0.5, .snapshots = 3, .cfl_meaning = "the stable one"}),
+          .effect_defaults = {{"body_force.factor", 7.0}},
+          .analyses = {"transient", "modes"}};
 }
 
 MethodDescription particles() {
@@ -138,7 +143,9 @@ Vocabulary small_vocabulary() {
   return {.methods = {particles(), fem(), no_effects()},
           .benchmarks = {beam(), bar()},
           .effects = {{"elasticity", "linear elasticity"},
-                      {"body_force", "a force per volume"},
+                      {"body_force",
+                       "a force per volume",
+                       {{.name = "factor", .range = {.lower = 0}, .default_value = 1.0, .meaning = "a factor"}}},
                       {"inertia", "mass times acceleration"},
                       {"heat_conduction", "Fourier's law"}},
           .kernels = {{"gauss", "a bell"}},

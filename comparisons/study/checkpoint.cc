@@ -1,0 +1,135 @@
+#include "comparisons/study/checkpoint.h"
+
+#include "comparisons/reports/files.h"
+#include "comparisons/study/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+namespace comparisons::study {
+
+namespace {
+
+constexpr const char *format_name = "petrov checkpoint";
+constexpr int schema = 1;
+
+class Fnv {
+public:
+  void add(const void *data, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      hash_ ^= static_cast<const unsigned char *>(data)[i];
+      hash_ *= 0x100000001b3ULL;
+    }
+  }
+  void add(const std::string &text) { add(text.data(), text.size() + 1); }
+  std::string text() const { return fmt::format("{:016x}", hash_); }
+
+private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+void add(Fnv &hash, const scene::Parameters &parameters) {
+  for (const auto &parameter : parameters.all())
+    if (parameter.declaration.name != "checkpoint_every" && parameter.declaration.name != "resume") {
+      hash.add(parameter.declaration.name);
+      hash.add(scene::to_text(parameter.value));
+    }
+}
+
+/// Of all values by name.
+std::string checksum(const meshless::dynamics::State &state) {
+  Fnv hash;
+  for (const auto &field : state) {
+    hash.add(field.name);
+    hash.add(field.values.data(), field.values.size_bytes());
+  }
+  return hash.text();
+}
+
+} // namespace
+
+std::string identity_of(const scene::Scene &scene, const scene::ProblemVariant &variant,
+                        const scene::MethodRequest &request, const scene::Level &level) {
+  Fnv hash;
+  hash.add(scene.benchmark);
+  add(hash, variant.parameters);
+  add(hash, scene.material);
+  for (const auto &[effect, parameters] : scene.effect_parameters) {
+    hash.add(effect);
+    add(hash, parameters);
+  }
+  add(hash, scene.time);
+  hash.add(request.name);
+  add(hash, request.parameters);
+  hash.add(level.text);
+  hash.add(scene::to_text(scene::Value(scene.study.integer("seed"))));
+  return hash.text();
+}
+
+std::filesystem::path checkpoint_file(const reports::Cell &cell) {
+  const std::string stem = std::filesystem::path(series_file(cell, "checkpoint")).stem().string();
+  return std::filesystem::path("checkpoints") / (stem + ".cbor");
+}
+
+void write_checkpoint(const std::filesystem::path &path, const std::string &identity,
+                      const meshless::dynamics::State &state, const Measured &measured) {
+  nlohmann::json json{{"format", format_name},
+                      {"schema", schema},
+                      {"identity", identity},
+                      {"checksum", checksum(state)},
+                      {"measured", measured}};
+  for (const auto &field : state)
+    json["fields"][field.name] = std::vector<double>(field.values.begin(), field.values.end());
+  const auto bytes = nlohmann::json::to_cbor(json);
+  std::error_code ignored; // the write says what is wrong
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  reports::write_file_atomically(path, {reinterpret_cast<const char *>(bytes.data()), bytes.size()});
+}
+
+Measured read_checkpoint(const std::filesystem::path &path, const std::string &identity,
+                         const meshless::dynamics::State &state) {
+  const auto fail = [&](const std::string &what) {
+    throw CheckpointError(fmt::format("checkpoint {}: {}", path.string(), what));
+  };
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    fail("cannot be read");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto json = nlohmann::json::from_cbor(bytes.begin(), bytes.end(), true, false);
+  if (json.is_discarded())
+    fail("truncated or no checkpoint of this program; remove it, or set time.resume = false");
+  if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
+    fail("no checkpoint of this program; remove it, or set time.resume = false");
+  if (json.value("schema", nlohmann::json()) != schema)
+    fail(fmt::format("schema {}; this version reads schema {}", json.value("schema", nlohmann::json()).dump(), schema));
+  if (json.value("identity", nlohmann::json()) != identity)
+    fail("belongs to another scene: problem, material, effects, time, method, level and seed must be the same; "
+         "remove it, or set time.resume = false");
+  std::vector<std::vector<double>> values;
+  try {
+    for (const auto &field : state)
+      values.push_back(json.at("fields").at(field.name).get<std::vector<double>>());
+  } catch (const nlohmann::json::exception &) {
+    fail("a field is missing");
+  }
+  Fnv hash;
+  for (std::size_t f = 0; f < state.size(); ++f) {
+    if (values[f].size() != state[f].values.size())
+      fail(fmt::format("the field '{}' has {} values, the run needs {}", state[f].name, values[f].size(),
+                       state[f].values.size()));
+    hash.add(state[f].name);
+    hash.add(values[f].data(), values[f].size() * sizeof(double));
+  }
+  if (json.value("checksum", nlohmann::json()) != hash.text())
+    fail("damaged: its checksum does not fit its values");
+  for (std::size_t f = 0; f < state.size(); ++f)
+    std::ranges::copy(values[f], state[f].values.begin());
+  return json.value("measured", Measured());
+}
+
+} // namespace comparisons::study
