@@ -1,25 +1,46 @@
 #include "comparisons/program/data_files.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace comparisons::program {
 
 namespace fs = std::filesystem;
 
-fs::path benchmarks_directory() {
-  const fs::path candidates[] = {fs::path(PETROV_INSTALL_DATA_DIR) / "benchmarks",
-                                 fs::path(PETROV_SOURCE_DIR) / "comparisons" / "benchmarks"};
+namespace {
+
+/// Both places where data may be, the one of this program first.
+std::array<fs::path, 2> places_of(const fs::path &folder) {
+  std::array<fs::path, 2> places{fs::path(PETROV_SOURCE_DIR) / "comparisons" / folder,
+                                 fs::path(PETROV_INSTALL_DATA_DIR) / folder};
   // A program that runs from its build folder uses the scenes it was built from.
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const bool installed = !error && program.string().starts_with(
                                        fs::path(PETROV_INSTALL_DATA_DIR).parent_path().parent_path().string() + "/");
-  for (const int i : {installed ? 0 : 1, installed ? 1 : 0})
-    if (fs::is_directory(candidates[i], error))
-      return candidates[i];
-  throw std::runtime_error("the shipped scenes are neither in " + candidates[0].string() + " nor in " +
-                           candidates[1].string());
+  if (installed)
+    std::swap(places[0], places[1]);
+  return places;
+}
+
+} // namespace
+
+fs::path benchmarks_directory() {
+  const auto places = places_of("benchmarks");
+  std::error_code error;
+  for (const fs::path &place : places)
+    if (fs::is_directory(place, error))
+      return place;
+  throw std::runtime_error("the shipped scenes are neither in " + places[0].string() + " nor in " + places[1].string());
+}
+
+fs::path page_directory() {
+  std::error_code error;
+  for (const fs::path &place : places_of(fs::path("reports") / "page"))
+    if (fs::is_directory(place, error))
+      return place;
+  return {};
 }
 
 std::vector<fs::path> shipped_scenes(const std::string &benchmark) {

@@ -10,6 +10,9 @@ namespace comparisons::program {
 /// @throws std::runtime_error if neither is there
 std::filesystem::path benchmarks_directory();
 
+/// Folder that holds the report page's style and script; empty if there is none: the page then is only to be read.
+std::filesystem::path page_directory();
+
 /// Scenes of one benchmark, scene.toml first, the others by name.
 std::vector<std::filesystem::path> shipped_scenes(const std::string &benchmark);
 

@@ -1,5 +1,6 @@
 #include "comparisons/program/describe_command.h"
 
+#include "comparisons/program/data_files.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/reports.h"
@@ -190,7 +191,7 @@ int rebuild_report(const fs::path &file, const CommonOptions &options) {
     if (formats.empty())
       formats = reports::report_formats();
     reports::prepare_output_directory(directory);
-    reports::write_reports(results, directory, formats, "results");
+    reports::write_reports(results, directory, formats, "results", page_directory());
     fmt::print("{}", reports::text_report(results));
     return all_as_expected;
   } catch (const std::exception &error) {

@@ -1,10 +1,15 @@
 #include "comparisons/reports/reports.h"
 
+#include "comparisons/reports/answers_section.h"
 #include "comparisons/reports/comparison_section.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
+#include "comparisons/reports/latex.h"
 #include "comparisons/reports/ledger_section.h"
 #include "comparisons/reports/numbers.h"
+#include "comparisons/reports/page/page.h"
+#include "comparisons/reports/scene_section.h"
+#include "comparisons/reports/summary.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,8 +32,9 @@ void append_header(Document &document, const Results &results, const std::vector
   std::vector<std::string> lines;
   lines.push_back(fmt::format("program: {} {}, commit {}, {} build, flags {}", program.name, program.version,
                               program.commit, program.build_type, program.flags));
-  lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}", machine.cpu, machine.cores,
-                              megabytes(machine.memory_bytes), significant(machine.load)));
+  lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}{}", machine.cpu, machine.cores,
+                              megabytes(machine.memory_bytes), significant(machine.load),
+                              machine.load_at_end ? ", at the end " + significant(machine.load_at_end) : ""));
   lines.push_back(
       fmt::format("threads: {}, BLAS: {}, SIMD lanes: {}", machine.threads, machine.blas, machine.simd_lanes));
   std::vector<std::string> libraries;
@@ -57,14 +63,14 @@ void append_reading_aid(Document &document) {
 
 void append_unexpected(Document &document, const Results &results) {
   const std::vector<std::string> outcomes = unexpected_outcomes(results);
-  if (outcomes.empty()) {
-    document.push_back(Paragraph{"No unexpected outcomes."});
+  if (outcomes.empty())
     return;
-  }
   document.push_back(Heading{2, fmt::format("UNEXPECTED OUTCOMES ({})", outcomes.size())});
   for (const std::string &outcome : outcomes)
     document.push_back(Alarm{outcome});
 }
+
+} // namespace
 
 Document report_document(const Results &results) {
   const std::vector<Group> groups = group_cells(results);
@@ -72,8 +78,10 @@ Document report_document(const Results &results) {
   append_header(document, results, groups);
   append_reading_aid(document);
   append_comparison(document, groups);
-  append_ledger(document, results);
   append_equal_error(document, results);
+  append_pareto(document, groups);
+  append_rates(document, groups);
+  append_ledger(document, results);
   append_phases(document, groups);
   append_further_quantities(document, groups);
   std::size_t n_series = 0;
@@ -82,9 +90,13 @@ Document report_document(const Results &results) {
   if (n_series > 0)
     document.push_back(Paragraph{fmt::format(
         "Curves and fields written beside the results: {}; the cells of results.json name them.", n_series)});
+  append_scenes(document, results);
   append_unexpected(document, results);
+  append_summary(document, results);
   return document;
 }
+
+namespace {
 
 std::string published_line(const Published &entry) {
   std::string text = fmt::format("{}, {}", entry.source, entry.entry);
@@ -116,13 +128,16 @@ std::string text_report(const Results &results) { return render_text(report_docu
 
 std::string markdown_report(const Results &results) { return render_markdown(report_document(results)); }
 
+std::string latex_report(const Results &results) { return render_latex(report_document(results)); }
+
 const std::vector<std::string> &report_formats() {
-  static const std::vector<std::string> formats{"text", "md", "csv", "json"};
+  static const std::vector<std::string> formats{"text", "md", "csv", "json", "tex", "html"};
   return formats;
 }
 
 std::vector<std::filesystem::path> write_reports(const Results &results, const std::filesystem::path &directory,
-                                                 const std::vector<std::string> &formats, const std::string &stem) {
+                                                 const std::vector<std::string> &formats, const std::string &stem,
+                                                 const std::filesystem::path &page_directory) {
   const std::vector<std::string> &known = report_formats();
   for (const std::string &format : formats)
     if (std::find(known.begin(), known.end(), format) == known.end())
@@ -141,7 +156,13 @@ std::vector<std::filesystem::path> write_reports(const Results &results, const s
       write(".md", markdown_report(results));
     else if (format == "json")
       write(".json", json_text(results));
-    else
+    else if (format == "tex") {
+      write("_tables.tex", latex_report(results));
+      write(".tex", latex_article(results, stem + "_tables"));
+    } else if (format == "html") {
+      files.push_back(directory / "report.html");
+      write_file_atomically(files.back(), html_page(results, load_page_files(page_directory)));
+    } else
       write(".csv", csv_report(results));
     if (format == "csv" && !results.published.empty())
       write("_published.csv", csv_published(results));

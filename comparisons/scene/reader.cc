@@ -136,7 +136,7 @@ std::vector<Declaration> output_declarations() {
       {.name = "directory", .type = Type::text, .default_value = "out", .meaning = "folder of the results"},
       {.name = "formats",
        .type = Type::text,
-       .meaning = "list of the reports' formats; default text, json, csv and Markdown"},
+       .meaning = "list of the reports' formats; default all but vtu"},
   };
 }
 

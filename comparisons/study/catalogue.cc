@@ -44,7 +44,9 @@ scene::Vocabulary vocabulary_of(const Catalogue &catalogue) {
   const std::map<std::string, std::string> meanings{{"text", "aligned tables"},
                                                     {"md", "tables in Markdown"},
                                                     {"csv", "one row a cell and quantity"},
-                                                    {"json", "everything, results.json"}};
+                                                    {"json", "everything, results.json"},
+                                                    {"tex", "tables for LaTeX (booktabs)"},
+                                                    {"html", "a page to read and explore, report.html"}};
   for (const auto &format : reports::report_formats()) {
     const auto found = meanings.find(format);
     vocabulary.formats.push_back({format, found == meanings.end() ? "" : found->second});
