@@ -206,16 +206,22 @@ void check_corner(const scene::CheckContext &context, scene::Diagnostics &diagno
 }
 
 elasticity::PlaneProblem translate(const problems::PlaneStatement &statement) {
+  if (statement.regions.size() != 1)
+    throw Refused("several materials are not possible yet");
+  const auto &region = statement.regions.front();
   std::vector<meshless::domain::BoundaryPiece> pieces;
-  for (const auto &piece : statement.boundary)
+  for (const auto &piece : region.boundary) {
     pieces.push_back({piece.begin, piece.end, piece.id});
-  elasticity::PlaneProblem problem{
-      meshless::domain::Boundary(std::move(pieces)),
-      elasticity::Material(statement.material.youngs_modulus, statement.material.poisson_ratio,
-                           statement.material.plane_strain ? elasticity::PlaneModel::plane_strain
-                                                           : elasticity::PlaneModel::plane_stress),
-      {},
-      statement.body_force};
+    if (piece.arc)
+      pieces.back().arc = {piece.arc->centre, piece.arc->counter_clockwise};
+  }
+  elasticity::PlaneProblem problem{meshless::domain::Boundary(std::move(pieces)),
+                                   elasticity::Material(region.material.youngs_modulus, region.material.poisson_ratio,
+                                                        region.material.plane_strain
+                                                            ? elasticity::PlaneModel::plane_strain
+                                                            : elasticity::PlaneModel::plane_stress),
+                                   {},
+                                   statement.body_force};
   for (const auto &[id, condition] : statement.conditions) {
     elasticity::BoundaryCondition translated;
     for (std::size_t k = 0; k < 2; ++k)

@@ -29,12 +29,30 @@ struct Material {
   bool plane_strain = false;
 };
 
-/// Straight piece of the boundary, the domain to its left.
+/// Circle that a curved piece lies on, and the sense in which the piece runs around it.
+struct Arc {
+  Point2 centre;
+  bool counter_clockwise = true;
+};
+
+/// Line or circular arc of the boundary of a region, the region to its left.
 struct BoundaryPiece {
   Point2 begin;
   Point2 end;
   int id = 0;
   std::string name; ///< "left"
+  std::optional<Arc> arc = {};
+};
+
+/// The id of pieces between two regions; there is no condition on them: the regions are bonded.
+inline constexpr int interface_id = -1;
+
+/// Part of the domain that is of one material. Its boundary is closed loops, counter-clockwise outside, clockwise
+/// around holes; what it shares with another region stands in both, in opposite directions, with interface_id.
+struct Region {
+  std::string name; ///< "steel"; empty if there is only one
+  Material material;
+  std::vector<BoundaryPiece> boundary;
 };
 
 /// What is prescribed on one boundary id, per component.
@@ -53,9 +71,10 @@ struct Corner {
 /// All that a method gets to see of a plane elastostatic problem: the mathematical statement. The
 /// exact solution is in it only as boundary data and body force.
 struct PlaneStatement {
-  std::vector<BoundaryPiece> boundary;
+  /// At least one.
+  std::vector<Region> regions;
+  /// By boundary id.
   std::map<int, BoundaryCondition> conditions;
-  Material material;
   /// N/m^3; empty unless the scene calls for the effect body_force.
   VectorField body_force;
   /// L of the penalty alpha = penalty E0 / L, m.
@@ -68,26 +87,46 @@ struct Cloud {
   std::vector<Point2> positions;
   /// Nominal distance of neighbours at every particle, m.
   std::vector<double> spacing;
+  /// Region of every particle; empty: all in the first. A particle on an interface stands once for each region.
+  std::vector<int> regions = {};
+  /// True for a grid with one spacing: methods may then take the papers' parameters as defaults.
+  bool regular = false;
 };
 
-/// A mesh of quadrilaterals of one level, counter-clockwise.
+/// A mesh of triangles and quadrilaterals of one level, counter-clockwise.
 struct Mesh {
+  struct Cell {
+    std::array<unsigned, 4> vertices;
+    unsigned n_vertices = 4; ///< 3 or 4
+    int region = 0;
+  };
+  /// A boundary edge; with a centre it is the shorter arc around it.
   struct Edge {
     std::array<unsigned, 2> vertices;
     int id;
+    std::optional<Point2> arc_centre = {};
   };
-  std::vector<Point2> vertices;
-  std::vector<std::array<unsigned, 4>> cells;
+  /// An edge, inside or on the boundary, that a mesh file gives as the parabola through three points.
+  struct CurvedEdge {
+    std::array<unsigned, 2> vertices;
+    Point2 midpoint;
+  };
+  std::vector<Point2> vertices; ///< corners of cells only
+  std::vector<Cell> cells;
   std::vector<Edge> boundary;
+  std::vector<CurvedEdge> curved_edges = {};
 };
 
 /// Points and weights (m^2) over the domain: the one quadrature of all error norms of a level.
 struct Quadrature {
   std::vector<Point2> points;
   std::vector<double> weights;
+  /// Region of every point; empty: all in the first.
+  std::vector<int> regions = {};
 };
 
-/// The exact solution, for metrics and boundary data.
+/// The exact solution, for metrics and boundary data, or the best substitute there is (a finer finite-element
+/// solution, a file); empty fields if there is none: errors are then not reported.
 struct ExactSolution {
   VectorField displacement; ///< m
   StressField stress;       ///< Pa
@@ -101,6 +140,26 @@ struct SampleLine {
   int axis = 0;
 };
 
+/// A figure of interest beside the error norms.
+struct RequestedQuantity {
+  enum class Kind {
+    displacement,      ///< component 0, 1, or 2 for the magnitude, at `point`
+    stress,            ///< component 0 (11), 1 (22), 2 (12), 3 (von Mises) at `point`
+    largest_von_mises, ///< over the points of the error quadrature
+    reaction,          ///< component 0, 1 of the force on boundary `id`, N per m of thickness
+    strain_energy,     ///< J per m of thickness
+  };
+  std::string name; ///< "stress_concentration_factor"
+  Kind kind = Kind::displacement;
+  int component = 0;
+  Point2 point{};
+  int id = 0;
+  /// The value is divided by this: sigma0 makes a concentration factor of a stress.
+  double scale = 1;
+  /// What it should be, after the division; `<name>_error` is then reported, relative to it.
+  std::optional<double> reference = {};
+};
+
 /// A scene's plane elastostatic problem: statement, discretisations, exact solution, sample lines.
 class PlaneProblem {
 public:
@@ -112,6 +171,7 @@ public:
   virtual Mesh mesh(const scene::Level &level) const = 0;
   virtual Quadrature quadrature(const scene::Level &level) const = 0;
   virtual std::vector<SampleLine> sample_lines() const = 0;
+  virtual std::vector<RequestedQuantity> quantities() const { return {}; }
   /// Component of the displacement whose largest error is reported, and the line where it is sought.
   struct LargestError {
     std::string quantity; ///< "u2_max_relative"

@@ -39,7 +39,7 @@ double RectangleGrid::spacing() const {
   return std::min((upper_[0] - lower_[0]) / (n_[0] - 1), (upper_[1] - lower_[1]) / (n_[1] - 1));
 }
 
-Cloud RectangleGrid::cloud() const { return {points_, std::vector<double>(points_.size(), spacing())}; }
+Cloud RectangleGrid::cloud() const { return {points_, std::vector<double>(points_.size(), spacing()), {}, true}; }
 
 Mesh RectangleGrid::mesh() const {
   Mesh mesh;
@@ -47,7 +47,7 @@ Mesh RectangleGrid::mesh() const {
   const auto vertex = [&](int i, int j) { return static_cast<unsigned>(index(i, j)); };
   for (int i = 0; i + 1 < n_[0]; ++i)
     for (int j = 0; j + 1 < n_[1]; ++j)
-      mesh.cells.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      mesh.cells.push_back({{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)}});
   for (int j = 0; j + 1 < n_[1]; ++j) {
     mesh.boundary.push_back({{vertex(0, j), vertex(0, j + 1)}, 0});
     mesh.boundary.push_back({{vertex(n_[0] - 1, j), vertex(n_[0] - 1, j + 1)}, 1});

@@ -1,6 +1,7 @@
 #include "comparisons/study/plane_experiment.h"
 
 #include "comparisons/metrics/error_norms.h"
+#include "comparisons/metrics/force_balance.h"
 #include "comparisons/metrics/memory.h"
 #include "comparisons/reports/files.h"
 
@@ -30,14 +31,21 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   solution.evaluate("stress", line.points, stress);
   std::vector<Vector2> exact_displacement(n);
   std::vector<Stress2> exact_stress(n);
-  exact.displacement(line.points, exact_displacement);
-  exact.stress(line.points, exact_stress);
-  std::string text = "x1,x2,u1,u2,s11,s22,s12,exact_u1,exact_u2,exact_s11,exact_s22,exact_s12\n";
-  for (std::size_t i = 0; i < n; ++i)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", line.points[i][0], line.points[i][1],
-                        displacement[2 * i], displacement[2 * i + 1], stress[3 * i], stress[3 * i + 1],
-                        stress[3 * i + 2], exact_displacement[i][0], exact_displacement[i][1], exact_stress[i][0],
-                        exact_stress[i][1], exact_stress[i][2]);
+  const bool known = exact.displacement && exact.stress;
+  if (known) {
+    exact.displacement(line.points, exact_displacement);
+    exact.stress(line.points, exact_stress);
+  }
+  std::string text = "x1,x2,u1,u2,s11,s22,s12";
+  text += known ? ",exact_u1,exact_u2,exact_s11,exact_s22,exact_s12\n" : "\n";
+  for (std::size_t i = 0; i < n; ++i) {
+    text += fmt::format("{},{},{},{},{},{},{}", line.points[i][0], line.points[i][1], displacement[2 * i],
+                        displacement[2 * i + 1], stress[3 * i], stress[3 * i + 1], stress[3 * i + 2]);
+    if (known)
+      text += fmt::format(",{},{},{},{},{}", exact_displacement[i][0], exact_displacement[i][1], exact_stress[i][0],
+                          exact_stress[i][1], exact_stress[i][2]);
+    text += '\n';
+  }
   return text;
 }
 
@@ -76,6 +84,7 @@ public:
     const auto &quadrature = quadrature_of(level);
     watch.lap();
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
+    cell.quantities["force_imbalance"] = metrics::equilibrium(*solution, problem_->statement(), quadrature).imbalance;
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())

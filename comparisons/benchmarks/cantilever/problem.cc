@@ -33,19 +33,19 @@ public:
       : jitter_(problem.real("jitter")), seed_(static_cast<std::uint64_t>(scene.study.integer("seed"))) {
     plate_ = {problem.real("length"), problem.real("width"), problem.real("force"), problem.point("origin")};
     upper_ = {plate_.origin[0] + plate_.length, plate_.origin[1] + plate_.width};
-    statement_.material = {scene.material.real("E"), scene.material.real("nu"),
-                           scene.material.text("model") == "plane strain"};
+    const problems::Material material{scene.material.real("E"), scene.material.real("nu"),
+                                      scene.material.text("model") == "plane strain"};
     const std::string &choice = problem.text("solution");
-    Solution solution = choice == "linear"          ? linear(plate_, statement_.material)
-                        : choice == "trigonometric" ? trigonometric(plate_, statement_.material)
-                                                    : bending(plate_, statement_.material);
+    Solution solution = choice == "linear"          ? linear(plate_, material)
+                        : choice == "trigonometric" ? trigonometric(plate_, material)
+                                                    : bending(plate_, material);
     exact_ = std::move(solution.exact);
     const bool wants_body_force =
         std::find(scene.effects.begin(), scene.effects.end(), "body_force") != scene.effects.end();
     if (wants_body_force)
       statement_.body_force = solution.body_force;
 
-    statement_.boundary = problems::rectangle_boundary(plate_.origin, upper_);
+    statement_.regions = {{{}, material, problems::rectangle_boundary(plate_.origin, upper_)}};
     statement_.corners = problems::rectangle_corners(plate_.origin, upper_);
     statement_.characteristic_length = plate_.length;
     problems::BoundaryCondition fixed;

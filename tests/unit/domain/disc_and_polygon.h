@@ -40,7 +40,8 @@ inline double power(double x, int n) {
 inline bool inside(std::span<const BoundaryPiece> pieces, const Point2 &x) {
   bool odd = false;
   for (const auto &piece : pieces) {
-    const auto &[a, b, id] = piece;
+    const auto &a = piece.begin;
+    const auto &b = piece.end;
     if ((a[0] <= x[0]) != (b[0] <= x[0]) && a[1] + (x[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1]) > x[1])
       odd = !odd;
   }

@@ -29,7 +29,7 @@ double prescribed(const PlaneProblem &problem, const RowCondition &row, const Po
   if (row.kind == ConditionKind::displacement)
     condition.displacement({&point, 1}, {&value, 1});
   else if (condition.traction) {
-    const Vector2 normal = piece.normal();
+    const Vector2 normal = piece.normal(piece.nearest(point));
     condition.traction({&point, 1}, {&normal, 1}, {&value, 1});
   }
   return value[static_cast<std::size_t>(row.component)];

@@ -173,7 +173,7 @@ private:
         right_[k] += quadrature_.JxW[q] * test_[q] * fields_[q][k];
   }
 
-  void integrate_boundary(const domain::SubdomainQuadrature::BoundaryPart &part) {
+  void integrate_boundary(const domain::SubdomainQuadrature::Part &part) {
     Stopwatch watch;
     const auto &condition = problem_.conditions.at(part.id);
     const std::size_t size = part.end - part.begin;
@@ -189,7 +189,9 @@ private:
       (kind == ConditionKind::displacement ? any_displacement : any_traction) = true;
     fields_.resize(size);
     if (any_traction && condition.traction) {
-      normals_.assign(size, part.normal);
+      normals_.resize(size);
+      for (std::size_t q = 0; q < size; ++q)
+        normals_[q] = {quadrature_.boundary_normal[0][part.begin + q], quadrature_.boundary_normal[1][part.begin + q]};
       condition.traction(points_, normals_, fields_);
       add_to_right_hand_side(part, condition, ConditionKind::traction, 1);
     }
@@ -204,7 +206,7 @@ private:
     seconds.assembly += watch.lap();
   }
 
-  void add_to_right_hand_side(const domain::SubdomainQuadrature::BoundaryPart &part, const BoundaryCondition &condition,
+  void add_to_right_hand_side(const domain::SubdomainQuadrature::Part &part, const BoundaryCondition &condition,
                               ConditionKind kind, double factor) {
     for (int k = 0; k < 2; ++k)
       if (condition.kind[k] == kind)
@@ -213,27 +215,32 @@ private:
   }
 
   /// alpha int u_i W - int sigma_ij n_j W for the components i whose displacement is prescribed.
-  void add_essential_terms(const domain::SubdomainQuadrature::BoundaryPart &part, const BoundaryCondition &condition,
+  void add_essential_terms(const domain::SubdomainQuadrature::Part &part, const BoundaryCondition &condition,
                            std::size_t size) {
     const auto &d = problem_.material;
-    const auto [n1, n2] = part.normal;
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
       double value = 0;
-      double derivative1 = 0;
-      double derivative2 = 0;
+      // s_kl = int W phi_j,k n_l
+      double s11 = 0, s12 = 0, s21 = 0, s22 = 0;
       for (std::size_t q = 0; q < size; ++q) {
         const double weight = quadrature_.boundary_JxW[part.begin + q] * test_[q];
+        const double n1 = quadrature_.boundary_normal[0][part.begin + q];
+        const double n2 = quadrature_.boundary_normal[1][part.begin + q];
+        const double phi1 = weight * derivative(0, j)[q];
+        const double phi2 = weight * derivative(1, j)[q];
         value += weight * values_.value(j)[q];
-        derivative1 += weight * derivative(0, j)[q];
-        derivative2 += weight * derivative(1, j)[q];
+        s11 += phi1 * n1;
+        s12 += phi1 * n2;
+        s21 += phi2 * n1;
+        s22 += phi2 * n2;
       }
       if (condition.kind[0] == ConditionKind::displacement) {
-        blocks_[0][j] += alpha_ * value - (d.axial() * derivative1 * n1 + d.shear() * derivative2 * n2);
-        blocks_[1][j] -= d.coupling() * derivative2 * n1 + d.shear() * derivative1 * n2;
+        blocks_[0][j] += alpha_ * value - (d.axial() * s11 + d.shear() * s22);
+        blocks_[1][j] -= d.coupling() * s21 + d.shear() * s12;
       }
       if (condition.kind[1] == ConditionKind::displacement) {
-        blocks_[2][j] -= d.shear() * derivative2 * n1 + d.coupling() * derivative1 * n2;
-        blocks_[3][j] += alpha_ * value - (d.shear() * derivative1 * n1 + d.axial() * derivative2 * n2);
+        blocks_[2][j] -= d.shear() * s21 + d.coupling() * s12;
+        blocks_[3][j] += alpha_ * value - (d.shear() * s11 + d.axial() * s22);
       }
     }
   }
