@@ -250,7 +250,9 @@ std::shared_ptr<const meshless::cloud::Particles<2>> make_particles(problems::Cl
 
 class ParticleField final : public Solution {
 public:
-  ParticleField(elasticity::ParticleSolution solution, double points_seconds) : solution_(std::move(solution)) {
+  ParticleField(elasticity::ParticleSolution solution, std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis,
+                double points_seconds)
+      : solution_(std::move(solution)), basis_(std::move(basis)) {
     const auto &s = solution_.seconds;
     record_.n_points = static_cast<std::int64_t>(solution_.particles().size());
     record_.n_dofs = 2 * record_.n_points;
@@ -286,8 +288,31 @@ public:
       throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
   }
 
+  std::vector<std::array<double, 2>> own_points() const override {
+    const auto positions = solution_.particles().positions();
+    return {positions.begin(), positions.end()};
+  }
+
+  /// Smoothing length, and neighbours and regularity of the moment matrix (smallest pivot over its diagonal entry, 1 at
+  /// best) at every particle.
+  std::map<std::string, std::vector<double>> own_figures() const override {
+    const auto &particles = solution_.particles();
+    const meshless::cloud::CandidateSearch<2> search(particles, basis_->support());
+    const meshless::basis::GroupedEvaluation<2> evaluation(*basis_, search);
+    std::vector<double> n_neighbours, regularity;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      evaluation.visit(particles.positions().subspan(i, 1), {.value = true}, [&](const auto &group) {
+        n_neighbours.push_back(static_cast<double>(group.regularity.n_neighbours));
+        regularity.push_back(group.regularity.smallest_pivot_ratio);
+      });
+    return {{"smoothing_length", {particles.smoothing_lengths().begin(), particles.smoothing_lengths().end()}},
+            {"n_neighbours", std::move(n_neighbours)},
+            {"moment_pivot_ratio", std::move(regularity)}};
+  }
+
 private:
   elasticity::ParticleSolution solution_;
+  std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis_;
 };
 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
@@ -304,7 +329,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
       return std::make_unique<ParticleField>(
           elasticity::strong_form::solve(problem, particles, basis,
                                          read_corner_rules(parameters.text("corner"), request.statement.corners)),
-          points_seconds);
+          basis, points_seconds);
     elasticity::weak_form::Parameters weak;
     weak.derivatives =
         form == Form::weak1 ? elasticity::DerivativeRule::direct : elasticity::DerivativeRule::differentiated;
@@ -313,7 +338,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
     weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
     weak.penalty = parameters.real("penalty");
     weak.characteristic_length = request.statement.characteristic_length;
-    return std::make_unique<ParticleField>(elasticity::weak_form::solve(problem, particles, basis, weak),
+    return std::make_unique<ParticleField>(elasticity::weak_form::solve(problem, particles, basis, weak), basis,
                                            points_seconds);
   } catch (const meshless::basis::SingularMomentMatrix &error) {
     throw Refused(error.what());

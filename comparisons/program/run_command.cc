@@ -158,7 +158,11 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
   if (with_ledger && !results.interrupted)
     settle_published(plan, results);
 
-  const auto files = reports::write_reports(results, plan.directory, plan.formats, "results", page_directory());
+  std::vector<std::string> complaints;
+  const auto files =
+      reports::write_reports(results, plan.directory, plan.formats, "results", {page_directory(), {}}, &complaints);
+  for (const std::string &complaint : complaints)
+    fmt::print(stderr, "warning: {}\n", complaint);
   if (results.published.empty()) {
     // The ledger of an earlier run in this folder would pass for this one's.
     std::error_code ignored;

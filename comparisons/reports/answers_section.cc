@@ -130,6 +130,8 @@ void append_pareto(Document &document, const std::vector<Group> &groups) {
         table.add_row({words_of(error), cell->label, cell->level, scientific(target_error(*cell, error)),
                        seconds(median_seconds(*cell, "total")), scientific(efficiency(*cell, error)),
                        scientific(accuracy_per_megabyte(*cell, error))});
+    if (!has_several_levels(group) && group.scene != "scene")
+      continue; // a study of one parameter has no cost to choose by
     // A front of one cell, or a group with nothing to choose from, says nothing.
     if (table.rows().size() < 2 || group.cells.size() < 2)
       continue;

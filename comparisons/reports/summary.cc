@@ -114,11 +114,11 @@ void append_summary(Document &document, const Results &results) {
                {"refused\nor failed", Align::right},
                {"unexpected", Align::right}});
   for (const BenchmarkSummary &summary : summarise(results))
-    table.add_row({summary.benchmark, summary.error.empty() ? no_number : words_of(summary.error),
-                   text_of(summary.best[0], summary.best_meshless[0]),
-                   text_of(summary.best[1], summary.best_meshless[1]), of(summary.reproduced, summary.values),
-                   of(summary.holding, summary.claims), summary.not_ok > 0 ? fmt::format("{}", summary.not_ok) : "0",
-                   fmt::format("{}", summary.unexpected)});
+    table.add_row(
+        {summary.benchmark, summary.error.empty() ? no_number : summary.scene + ": " + words_of(summary.error),
+         text_of(summary.best[0], summary.best_meshless[0]), text_of(summary.best[1], summary.best_meshless[1]),
+         of(summary.reproduced, summary.values), of(summary.holding, summary.claims),
+         summary.not_ok > 0 ? fmt::format("{}", summary.not_ok) : "0", fmt::format("{}", summary.unexpected)});
   if (!table.rows().empty()) {
     table.drop_columns_without(no_number);
     document.push_back(std::move(table));

@@ -46,7 +46,9 @@ scene::Vocabulary vocabulary_of(const Catalogue &catalogue) {
                                                     {"csv", "one row a cell and quantity"},
                                                     {"json", "everything, results.json"},
                                                     {"tex", "tables for LaTeX (booktabs)"},
-                                                    {"html", "a page to read and explore, report.html"}};
+                                                    {"html", "a page to read and explore, report.html"},
+                                                    {"figures", "figures by gnuplot: script, data, SVG, PDF"},
+                                                    {"vtu", "fields of the solutions for ParaView"}};
   for (const auto &format : reports::report_formats()) {
     const auto found = meanings.find(format);
     vocabulary.formats.push_back({format, found == meanings.end() ? "" : found->second});

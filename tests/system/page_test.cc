@@ -1,5 +1,6 @@
 // report.html in a real browser, and the LaTeX tables through pdflatex: what a reader gets.
 
+#include "comparisons/program/data_files.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/reports.h"
 #include "system/program_here.h"
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace {
@@ -60,6 +62,15 @@ TEST(Page, works_in_a_browser) {
   const Folder folder;
   const auto run = run_scenes(folder);
   ASSERT_TRUE(fs::exists(folder / "out/report.html")) << run.err;
+  // A refused cell among others that can be drawn.
+  auto results = reports::read_results(folder / "out/results.json");
+  const auto refused = std::find_if(results.cells.begin(), results.cells.end(),
+                                    [](const auto &cell) { return cell.status == reports::Status::refused; });
+  ASSERT_NE(refused, results.cells.end());
+  reports::Cell moved = *refused;
+  moved.scene = "convergence";
+  results.cells.push_back(moved);
+  reports::write_reports(results, folder / "out", {"json", "html"}, "results", {program::page_directory(), {}});
   fs::create_directories(tests / "screenshots");
   const auto browser = Process({"page_test.mjs", (folder / "out/report.html").string(),
                                 (folder / "out/results.json").string(), (tests / "screenshots").string()},

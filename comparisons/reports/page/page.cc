@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
@@ -64,8 +65,13 @@ std::string packed_json(const Results &results) {
   return base64(packed);
 }
 
-/// Groups whose figures stand in the page: the main comparisons and those with several levels. The explorer draws all.
-bool has_figures(const Group &group) { return group.scene == "scene" || has_several_levels(group); }
+/// Groups whose figures stand in the page: the main comparisons, those with several levels, and failures. The explorer
+/// draws all.
+bool has_figures(const Group &group) {
+  const bool has_failed =
+      std::any_of(group.cells.begin(), group.cells.end(), [](const Cell *cell) { return cell->status != Status::ok; });
+  return group.scene == "scene" || has_several_levels(group) || has_failed;
+}
 
 std::string group_figures(const Group &group) {
   constexpr std::size_t most = 2;
@@ -180,7 +186,7 @@ PageFiles load_page_files(const std::filesystem::path &directory) {
     files.script = read(directory / "page.js");
   }
   for (const char *library : chart_libraries)
-    if (files.charts.empty())
+    if (!files.script.empty() && files.charts.empty()) // nothing else would draw with it
       files.charts = read(library);
   return files;
 }

@@ -144,7 +144,12 @@
     const scale = (text) => ({
       type: 'logarithmic', title: { display: true, text, color: colour('--ink') },
       grid: { color: colour('--line') },
-      ticks: { color: colour('--ink'), maxTicksLimit: 9, callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : '') },
+      // Only powers of ten have a label: the others would be lines that say nothing.
+      afterBuildTicks: (axis) => {
+        const powers = axis.ticks.filter((tick) => Math.abs(Math.log10(tick.value) % 1) < 1e-9);
+        if (powers.length > 1) axis.ticks = powers;
+      },
+      ticks: { color: colour('--ink'), maxTicksLimit: 9, callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : short(value)) },
     });
     if (chart) chart.destroy();
     chart = new Chart(element('chart'), {

@@ -118,6 +118,15 @@ std::string legend(const Plot &plot) {
 constexpr std::array<const char *, 7> bar_phases{"points", "neighbours", "basis",     "assembly",
                                                  "solve",  "recovery",   "evaluation"};
 
+/// The last ok level of its label: one bar a label, or the page would be all bars.
+bool is_finest(const Group &group, const Cell &cell) {
+  const Cell *finest = nullptr;
+  for (const Cell *other : group.cells)
+    if (other->label == cell.label && other->status == Status::ok)
+      finest = other;
+  return finest == &cell;
+}
+
 } // namespace
 
 std::string html_escaped(std::string_view text) {
@@ -178,7 +187,7 @@ std::string svg_phase_bars(const Group &group) {
   std::vector<const Cell *> cells;
   double longest = 0;
   for (const Cell *cell : group.cells)
-    if (cell->status == Status::ok && median_seconds(*cell, "total").value_or(0) > 0) {
+    if (is_finest(group, *cell) && median_seconds(*cell, "total").value_or(0) > 0) {
       cells.push_back(cell);
       longest = std::max(longest, *median_seconds(*cell, "total"));
     }

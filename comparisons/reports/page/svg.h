@@ -19,7 +19,7 @@ std::string marker_definitions();
 /// A figure with its legend. Colours are classes c0 ... c7 of the page's style sheet; points name their values.
 std::string svg_figure(const Plot &plot);
 
-/// Seconds by phase as stacked bars, one a cell; empty if nothing was timed.
+/// Seconds by phase as stacked bars, one for the finest level of each label; empty if nothing was timed.
 std::string svg_phase_bars(const Group &group);
 
 } // namespace comparisons::reports
