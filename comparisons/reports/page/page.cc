@@ -121,7 +121,7 @@ private:
     if (section_ == "Further errors and quantities")
       return true;
     const Group *group = find_group(groups_, caption_);
-    return section_ == "Seconds by phase" && group != nullptr && !has_figures(*group) &&
+    return section_ == "Seconds by phase" && group != nullptr && group->scene != "scene" &&
            !std::holds_alternative<Heading>(block);
   }
 
