@@ -11,6 +11,9 @@ install(DIRECTORY comparisons/benchmarks comparisons/examples meshes
   DESTINATION ${CMAKE_INSTALL_DATADIR}/petrov OPTIONAL
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.geo" PATTERN "*.msh" PATTERN "*.csv")
 
+install(DIRECTORY comparisons/reports/page DESTINATION ${CMAKE_INSTALL_DATADIR}/petrov/reports
+  FILES_MATCHING PATTERN "*.css" PATTERN "*.js")
+
 if(TARGET meshless)
   set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Petrov)
   install(TARGETS meshless EXPORT PetrovTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

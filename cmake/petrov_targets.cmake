@@ -40,11 +40,19 @@ function(petrov_describe_build target)
   list(FILTER options EXCLUDE REGEX "^(-W|\\$<)")
   list(JOIN options " " options)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${options}" flags)
+  set(libraries)
+  foreach(package IN ITEMS deal.II Eigen3 TBB fmt nlohmann_json CLI11)
+    if(${package}_VERSION)
+      list(APPEND libraries "${package} ${${package}_VERSION}")
+    endif()
+  endforeach()
+  list(JOIN libraries "," libraries)
   # Only for the files that read them: a compiler cache then shares all others between folders.
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS
     PETROV_VERSION="${PROJECT_VERSION}"
     PETROV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PETROV_INSTALL_DATA_DIR="${CMAKE_INSTALL_FULL_DATADIR}/petrov"
+    PETROV_LIBRARY_VERSIONS="${libraries}"
     PETROV_BUILD_TYPE="${CMAKE_BUILD_TYPE}"
     PETROV_CXX_FLAGS="${flags}")
 endfunction()

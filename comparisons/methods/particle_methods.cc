@@ -333,9 +333,9 @@ std::shared_ptr<const meshless::cloud::Particles<2>> make_particles(problems::Cl
 
 class ParticleField final : public Solution {
 public:
-  ParticleField(elasticity::ParticleSolution solution, double points_seconds, std::size_t n_enlarged,
-                double largest_factor)
-      : solution_(std::move(solution)) {
+  ParticleField(elasticity::ParticleSolution solution, std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis,
+                double points_seconds, std::size_t n_enlarged, double largest_factor)
+      : solution_(std::move(solution)), basis_(std::move(basis)) {
     const auto &s = solution_.seconds;
     record_.n_points = static_cast<std::int64_t>(solution_.particles().size());
     record_.n_dofs = 2 * record_.n_points;
@@ -377,8 +377,31 @@ public:
       throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
   }
 
+  std::vector<std::array<double, 2>> own_points() const override {
+    const auto positions = solution_.particles().positions();
+    return {positions.begin(), positions.end()};
+  }
+
+  /// Smoothing length, and neighbours and regularity of the moment matrix (smallest pivot over its diagonal entry, 1 at
+  /// best) at every particle.
+  std::map<std::string, std::vector<double>> own_figures() const override {
+    const auto &particles = solution_.particles();
+    const meshless::cloud::CandidateSearch<2> search(particles, basis_->support());
+    const meshless::basis::GroupedEvaluation<2> evaluation(*basis_, search);
+    std::vector<double> n_neighbours, regularity;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      evaluation.visit(particles.positions().subspan(i, 1), {.value = true}, [&](const auto &group) {
+        n_neighbours.push_back(static_cast<double>(group.regularity.n_neighbours));
+        regularity.push_back(group.regularity.smallest_pivot_ratio);
+      });
+    return {{"smoothing_length", {particles.smoothing_lengths().begin(), particles.smoothing_lengths().end()}},
+            {"n_neighbours", std::move(n_neighbours)},
+            {"moment_pivot_ratio", std::move(regularity)}};
+  }
+
 private:
   elasticity::ParticleSolution solution_;
+  std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis_;
 };
 
 using ParticlesPointer = std::shared_ptr<const meshless::cloud::Particles<2>>;
@@ -437,7 +460,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
             : elasticity::weak_form::solve(problem, particles, basis,
                                            weak_parameters(request, form, regular, test_radius));
     solution.seconds.neighbours += enlarge_seconds;
-    return std::make_unique<ParticleField>(std::move(solution), points_seconds, n_enlarged, largest_factor);
+    return std::make_unique<ParticleField>(std::move(solution), basis, points_seconds, n_enlarged, largest_factor);
   } catch (const meshless::basis::SingularMomentMatrix &error) {
     throw Refused(error.what());
   }

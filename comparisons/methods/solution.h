@@ -48,6 +48,11 @@ public:
   virtual void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
                         std::span<double> values) const = 0;
 
+  /// Positions of the particles; empty for a method whose own points are the mesh's.
+  virtual std::vector<std::array<double, 2>> own_points() const { return {}; }
+  /// Figures at own_points(), such as smoothing_length (m) and n_neighbours, to be shown beside the fields.
+  virtual std::map<std::string, std::vector<double>> own_figures() const { return {}; }
+
   /// Nothing: the forces are integrals of the stress over the boundary.
   virtual std::optional<ForceBalance> own_forces() const { return {}; }
   /// J per m of thickness by the method's own quadrature; nothing: an integral of the stress by the quadrature of

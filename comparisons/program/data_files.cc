@@ -30,6 +30,14 @@ fs::path benchmarks_directory() { return directory("scenes", "benchmarks", fs::p
 
 fs::path meshes_directory() { return directory("clouds and meshes", "meshes", "meshes"); }
 
+fs::path page_directory() {
+  try {
+    return directory("page's files", fs::path("reports") / "page", fs::path("comparisons") / "reports" / "page");
+  } catch (const std::runtime_error &) {
+    return {}; // a page that is only to be read is better than none
+  }
+}
+
 std::vector<fs::path> shipped_scenes(const std::string &benchmark) {
   std::vector<fs::path> scenes;
   for (const auto &entry : fs::directory_iterator(benchmarks_directory() / benchmark))

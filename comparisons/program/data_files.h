@@ -14,6 +14,9 @@ std::filesystem::path benchmarks_directory();
 /// @throws std::runtime_error if neither is there
 std::filesystem::path meshes_directory();
 
+/// Folder that holds the report page's style and script; empty if there is none: the page then is only to be read.
+std::filesystem::path page_directory();
+
 /// Scenes of one benchmark, scene.toml first, the others by name.
 std::vector<std::filesystem::path> shipped_scenes(const std::string &benchmark);
 

@@ -1,9 +1,12 @@
 #include "comparisons/program/describe_command.h"
 
+#include "comparisons/program/data_files.h"
 #include "comparisons/program/geometry_description.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
+#include "comparisons/reports/latex.h"
 #include "comparisons/reports/reports.h"
+#include "comparisons/reports/side_by_side.h"
 #include "comparisons/reports/table.h"
 #include "comparisons/scene/describe.h"
 #include "comparisons/scene/reader.h"
@@ -202,8 +205,31 @@ int rebuild_report(const fs::path &file, const CommonOptions &options) {
     if (formats.empty())
       formats = reports::report_formats();
     reports::prepare_output_directory(directory);
-    reports::write_reports(results, directory, formats, "results");
+    std::vector<std::string> complaints;
+    reports::write_reports(results, directory, formats, "results",
+                           {page_directory(), file.parent_path().empty() ? "." : file.parent_path()}, &complaints);
+    for (const std::string &complaint : complaints)
+      fmt::print(stderr, "warning: {}\n", complaint);
     fmt::print("{}", reports::text_report(results));
+    return all_as_expected;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return invalid_scene;
+  }
+}
+
+int compare_runs(const fs::path &first, const fs::path &second, const CommonOptions &options) {
+  try {
+    const reports::Document document = reports::side_by_side({first.string(), reports::read_results(first)},
+                                                             {second.string(), reports::read_results(second)});
+    if (options.output) {
+      reports::prepare_output_directory(*options.output);
+      const fs::path directory = *options.output;
+      reports::write_file_atomically(directory / "side_by_side.txt", reports::render_text(document));
+      reports::write_file_atomically(directory / "side_by_side.md", reports::render_markdown(document));
+      reports::write_file_atomically(directory / "side_by_side.tex", reports::render_latex(document));
+    }
+    fmt::print("{}", reports::render_text(document));
     return all_as_expected;
   } catch (const std::exception &error) {
     fmt::print(stderr, "error: {}\n", error.what());

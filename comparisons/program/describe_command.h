@@ -26,4 +26,7 @@ int write_initial_scene(const std::string &benchmark, const std::string &file, c
 /// `petrov report RESULTS`: rebuilds the reports from results.json.
 int rebuild_report(const std::filesystem::path &results, const CommonOptions &options);
 
+/// `petrov report FIRST SECOND`: two runs side by side; with --output also as text, Markdown and LaTeX.
+int compare_runs(const std::filesystem::path &first, const std::filesystem::path &second, const CommonOptions &options);
+
 } // namespace comparisons::program

@@ -4,10 +4,13 @@
 #include "comparisons/metrics/machine.h"
 #include "comparisons/program/data_files.h"
 #include "comparisons/program/interrupt.h"
+#include "comparisons/reports/answers.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/reports.h"
 #include "comparisons/scene/reader.h"
 #include "comparisons/study/run_scene.h"
+
+#include "meshless/linear_algebra/stopwatch.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -140,13 +143,13 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
                       "name a folder that can be written, here or with --output"});
     return invalid_scene;
   }
-  int threads = 1;
+  std::set<int> threads;
   for (const auto &scene : plan.scenes)
-    threads = std::max(threads, static_cast<int>(scene.study.integer("threads")));
+    threads.insert(static_cast<int>(scene.study.integer("threads")));
   reports::Results results;
   results.program = metrics::describe_program();
-  results.machine = metrics::describe_machine(threads);
-  results.not_comparable = metrics::reasons_not_comparable(results.program, results.machine);
+  results.machine = metrics::describe_machine(threads.empty() ? 1 : *threads.rbegin());
+  meshless::linear_algebra::Stopwatch watch;
   add_scene_json(plan.scenes, results);
   add_effects(plan.scenes, catalogue, results);
 
@@ -168,10 +171,17 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     }
   }
   results.interrupted = Interrupt::requested();
+  results.machine.load_at_end = metrics::current_load();
+  results.not_comparable = metrics::reasons_not_comparable(results.program, results.machine, threads, watch.lap());
+  results.equal_error = reports::equal_errors(results);
   if (with_ledger && !results.interrupted)
     settle_published(plan, results);
 
-  const auto files = reports::write_reports(results, plan.directory, plan.formats, "results");
+  std::vector<std::string> complaints;
+  const auto files =
+      reports::write_reports(results, plan.directory, plan.formats, "results", {page_directory(), {}}, &complaints);
+  for (const std::string &complaint : complaints)
+    fmt::print(stderr, "warning: {}\n", complaint);
   if (results.published.empty()) {
     // The ledger of an earlier run in this folder would pass for this one's.
     std::error_code ignored;

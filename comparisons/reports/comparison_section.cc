@@ -3,6 +3,7 @@
 #include "comparisons/reports/numbers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -160,6 +161,25 @@ Table further_table(const Group &group, const std::vector<std::string> &names) {
   return table;
 }
 
+/// Which timings are to be taken with caution; the first few by name.
+std::string wide_spreads(const Group &group) {
+  constexpr std::size_t most_names = 4;
+  std::vector<std::string> names;
+  std::size_t n_timed = 0;
+  for (const Cell *cell : group.cells)
+    if (const auto spread = relative_spread(*cell); spread && cell->status == Status::ok) {
+      ++n_timed;
+      if (*spread > wide_spread)
+        names.push_back(cell_name(*cell));
+    }
+  if (names.empty())
+    return {};
+  const std::size_t n_wide = names.size();
+  names.resize(std::min(n_wide, most_names));
+  return fmt::format("Spread above {:.0f} %: {} of {} cells ({}{}); their medians are uncertain by as much.",
+                     100 * wide_spread, n_wide, n_timed, fmt::join(names, "; "), n_wide > most_names ? "; ..." : "");
+}
+
 } // namespace
 
 std::string status_text(const Cell &cell) {
@@ -186,8 +206,8 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
   for (const Group &group : groups) {
     std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
     for (const char *phase : phases)
-      columns.push_back({phase});
-    columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"repeats"}});
+      columns.push_back({std::string_view(phase) == "neighbours" ? "neigh-\nbours" : phase});
+    columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}});
     Table table(columns);
     for (const Cell *cell : group.cells) {
       if (cell->status != Status::ok || cell->seconds.empty())
@@ -199,6 +219,7 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
       const bool timed = total != cell->seconds.end();
       row.push_back(timed ? seconds(total->second.minimum) : no_number);
       row.push_back(timed ? seconds(total->second.maximum) : no_number);
+      row.push_back(percent(relative_spread(*cell)));
       row.push_back(fmt::format("{}", cell->repeats));
       table.add_row(std::move(row));
     }
@@ -207,6 +228,8 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
     table.drop_columns_without(no_number);
     document.push_back(Heading{3, group.title()});
     document.push_back(std::move(table));
+    if (const std::string wide = wide_spreads(group); !wide.empty())
+      document.push_back(Paragraph{wide});
   }
 }
 
@@ -226,18 +249,6 @@ void append_further_quantities(Document &document, const std::vector<Group> &gro
                                                names.begin() + static_cast<std::ptrdiff_t>(end)}));
     }
   }
-}
-
-void append_equal_error(Document &document, const Results &results) {
-  if (results.equal_error.empty())
-    return;
-  document.push_back(Heading{2, "Seconds for equal errors"});
-  Table table(
-      {{"error", Align::left}, {"target"}, {"method", Align::left, true}, {"seconds"}, {"why not", Align::left, true}});
-  for (const EqualError &entry : results.equal_error)
-    table.add_row({entry.error, scientific(entry.target), entry.method, seconds(entry.seconds), entry.reason});
-  table.drop_columns_without("");
-  document.push_back(std::move(table));
 }
 
 } // namespace comparisons::reports

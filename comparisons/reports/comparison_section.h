@@ -7,12 +7,10 @@ namespace comparisons::reports {
 
 /// Errors, total seconds and memory, one table a group, the reasons of cells that are not ok below it.
 void append_comparison(Document &document, const std::vector<Group> &groups);
-/// Seconds by phase.
+/// Seconds by phase, with the spread of the repeats; one above 10 % is named.
 void append_phases(Document &document, const std::vector<Group> &groups);
 /// Errors and quantities that the comparison does not show.
 void append_further_quantities(Document &document, const std::vector<Group> &groups);
-/// Seconds for equal errors.
-void append_equal_error(Document &document, const Results &results);
 
 /// "ok", "refused (expected)", "failed (UNEXPECTED)".
 std::string status_text(const Cell &cell);

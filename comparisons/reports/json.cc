@@ -19,14 +19,6 @@ Json numbers(const Cell &cell, const std::map<std::string, double> &map) {
   return json;
 }
 
-/// Largest minus smallest total over its median.
-Json relative_spread(const Cell &cell) {
-  const auto total = cell.seconds.find("total");
-  if (total == cell.seconds.end() || !(total->second.median > 0))
-    return nullptr;
-  return number_or_null((total->second.maximum - total->second.minimum) / total->second.median);
-}
-
 Json seconds(const Cell &cell) {
   Json json = Json::object();
   Json minimum = Json::object();
@@ -40,7 +32,7 @@ Json seconds(const Cell &cell) {
     maximum[phase] = number_or_null(found->second.maximum);
   }
   json["repeats"] = cell.repeats;
-  json["spread"] = relative_spread(cell);
+  json["spread"] = number_or_null(relative_spread(cell));
   json["minimum"] = std::move(minimum);
   json["maximum"] = std::move(maximum);
   return json;
@@ -54,6 +46,7 @@ Json cell_json(const Cell &cell) {
   json["method"] = cell.method;
   json["label"] = cell.label;
   json["level"] = cell.level;
+  json["dimension"] = cell.dimension;
   json["n_points"] = cell.n_points;
   json["n_dofs"] = cell.n_dofs;
   json["parameters"] = cell.parameters;
@@ -108,6 +101,7 @@ Json machine_json(const Machine &machine) {
           {"cores", machine.cores},
           {"memory", machine.memory_bytes},
           {"load", number_or_null(machine.load)},
+          {"load_at_end", number_or_null(machine.load_at_end)},
           {"blas", machine.blas},
           {"threads", machine.threads},
           {"simd_lanes", machine.simd_lanes},
@@ -136,7 +130,10 @@ Json to_json(const Results &results) {
     json["published"].push_back(published_json(entry));
   json["equal_error"] = Json::array();
   for (const EqualError &entry : results.equal_error)
-    json["equal_error"].push_back({{"error", entry.error},
+    json["equal_error"].push_back({{"benchmark", entry.benchmark},
+                                   {"scene", entry.scene},
+                                   {"variant", entry.variant},
+                                   {"error", entry.error},
                                    {"target", number_or_null(entry.target)},
                                    {"method", entry.method},
                                    {"seconds", number_or_null(entry.seconds)},

@@ -159,6 +159,11 @@ Cell read_cell(const Node &node) {
   cell.method = node.at("method").text();
   cell.label = node.at("label").text();
   cell.level = node.at("level").text();
+  if (node.has("dimension")) {
+    cell.dimension = node.at("dimension").small_count();
+    if (cell.dimension < 1 || cell.dimension > 3)
+      node.at("dimension").fail(fmt::format("found {}, expected 1, 2 or 3", cell.dimension));
+  }
   cell.n_points = node.at("n_points").count();
   cell.n_dofs = node.at("n_dofs").count();
   cell.parameters = node.at("parameters").json();
@@ -219,6 +224,8 @@ Machine read_machine(const Node &node) {
   machine.cores = node.at("cores").small_count();
   machine.memory_bytes = node.at("memory").count();
   machine.load = node.at("load").number_or_nan();
+  if (node.has("load_at_end"))
+    machine.load_at_end = node.at("load_at_end").optional_number();
   machine.blas = node.at("blas").text();
   machine.threads = node.at("threads").small_count();
   machine.simd_lanes = node.at("simd_lanes").small_count();
@@ -250,9 +257,10 @@ Results from_json(const Json &json) {
   for (const Node &entry : root.at("published").items())
     results.published.push_back(read_published(entry));
   for (const Node &entry : root.at("equal_error").items())
-    results.equal_error.push_back({entry.at("error").text(), entry.at("target").number_or_nan(),
-                                   entry.at("method").text(), entry.at("seconds").optional_number(),
-                                   entry.text_or_empty("reason")});
+    results.equal_error.push_back({entry.text_or_empty("benchmark"), entry.text_or_empty("scene"),
+                                   entry.text_or_empty("variant"), entry.at("error").text(),
+                                   entry.at("target").number_or_nan(), entry.at("method").text(),
+                                   entry.at("seconds").optional_number(), entry.text_or_empty("reason")});
   return results;
 }
 

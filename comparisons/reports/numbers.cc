@@ -26,6 +26,10 @@ std::string seconds(std::optional<double> value) {
   return is_number(value) ? fmt::format("{:.3g}", *value) : no_number;
 }
 
+std::string percent(std::optional<double> value) {
+  return is_number(value) ? fmt::format("{:.1f}", 100 * *value) : no_number;
+}
+
 std::string megabytes(std::int64_t bytes) {
   return bytes > 0 ? fmt::format("{:.1f}", static_cast<double>(bytes) / 1e6) : no_number;
 }

@@ -20,6 +20,8 @@ std::string logarithm(std::optional<double> value);
 std::string rate(std::optional<double> value);
 /// Seconds: three significant digits ("0.0123").
 std::string seconds(std::optional<double> value);
+/// A part of one in per cent: one decimal.
+std::string percent(std::optional<double> value);
 /// Bytes in 10^6 bytes; 0 means not measured.
 std::string megabytes(std::int64_t bytes);
 /// Four significant digits, whatever the size ("3.002", "0.1951", "1.2e-07").

@@ -1,10 +1,19 @@
 #include "comparisons/reports/reports.h"
 
+#include "comparisons/reports/answers.h"
+#include "comparisons/reports/answers_section.h"
 #include "comparisons/reports/comparison_section.h"
+#include "comparisons/reports/figures.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
+#include "comparisons/reports/latex.h"
 #include "comparisons/reports/ledger_section.h"
 #include "comparisons/reports/numbers.h"
+#include "comparisons/reports/page/page.h"
+#include "comparisons/reports/plot.h"
+#include "comparisons/reports/scene_section.h"
+#include "comparisons/reports/summary.h"
+#include "comparisons/reports/vtu.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,8 +36,9 @@ void append_header(Document &document, const Results &results, const std::vector
   std::vector<std::string> lines;
   lines.push_back(fmt::format("program: {} {}, commit {}, {} build, flags {}", program.name, program.version,
                               program.commit, program.build_type, program.flags));
-  lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}", machine.cpu, machine.cores,
-                              megabytes(machine.memory_bytes), significant(machine.load)));
+  lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}{}", machine.cpu, machine.cores,
+                              megabytes(machine.memory_bytes), significant(machine.load),
+                              machine.load_at_end ? ", at the end " + significant(machine.load_at_end) : ""));
   lines.push_back(
       fmt::format("threads: {}, BLAS: {}, SIMD lanes: {}", machine.threads, machine.blas, machine.simd_lanes));
   std::vector<std::string> libraries;
@@ -57,14 +67,14 @@ void append_reading_aid(Document &document) {
 
 void append_unexpected(Document &document, const Results &results) {
   const std::vector<std::string> outcomes = unexpected_outcomes(results);
-  if (outcomes.empty()) {
-    document.push_back(Paragraph{"No unexpected outcomes."});
+  if (outcomes.empty())
     return;
-  }
   document.push_back(Heading{2, fmt::format("UNEXPECTED OUTCOMES ({})", outcomes.size())});
   for (const std::string &outcome : outcomes)
     document.push_back(Alarm{outcome});
 }
+
+} // namespace
 
 Document report_document(const Results &results) {
   const std::vector<Group> groups = group_cells(results);
@@ -72,8 +82,10 @@ Document report_document(const Results &results) {
   append_header(document, results, groups);
   append_reading_aid(document);
   append_comparison(document, groups);
-  append_ledger(document, results);
   append_equal_error(document, results);
+  append_pareto(document, groups);
+  append_rates(document, groups);
+  append_ledger(document, results);
   append_phases(document, groups);
   append_further_quantities(document, groups);
   std::size_t n_series = 0;
@@ -82,9 +94,13 @@ Document report_document(const Results &results) {
   if (n_series > 0)
     document.push_back(Paragraph{fmt::format(
         "Curves and fields written beside the results: {}; the cells of results.json name them.", n_series)});
+  append_scenes(document, results);
   append_unexpected(document, results);
+  append_summary(document, results);
   return document;
 }
+
+namespace {
 
 std::string published_line(const Published &entry) {
   std::string text = fmt::format("{}, {}", entry.source, entry.entry);
@@ -116,37 +132,94 @@ std::string text_report(const Results &results) { return render_text(report_docu
 
 std::string markdown_report(const Results &results) { return render_markdown(report_document(results)); }
 
+std::string latex_report(const Results &results) { return render_latex(report_document(results)); }
+
 const std::vector<std::string> &report_formats() {
-  static const std::vector<std::string> formats{"text", "md", "csv", "json"};
+  static const std::vector<std::string> formats{"text", "md", "csv", "json", "tex", "html", "figures", "vtu"};
   return formats;
 }
 
+namespace {
+
+/// Levels are the times of a collection, labels its parts.
+std::string collection(const Group &group, const std::filesystem::path &series,
+                       const std::filesystem::path &directory) {
+  std::vector<CollectionEntry> entries;
+  std::size_t part = 0;
+  for (const MethodSeries &one : series_of(group)) {
+    for (std::size_t level = 0; level < one.cells.size(); ++level)
+      for (const Series &file : one.cells[level]->series)
+        if (file.file.ends_with(".vtu"))
+          entries.push_back({static_cast<double>(level), part, one.label + ", " + one.cells[level]->level,
+                             std::filesystem::proximate(series / file.file, directory).string()});
+    ++part;
+  }
+  return entries.empty() ? std::string() : pvd_text(entries);
+}
+
+/// Writes one format after the other.
+class Writer {
+public:
+  Writer(const Results &results, std::filesystem::path directory, std::string stem, const ReportSources &sources)
+      : results_(results), directory_(std::move(directory)), stem_(std::move(stem)), sources_(sources),
+        series_(sources.series_directory.empty() ? directory_ : sources.series_directory) {}
+
+  void write(const std::string &format, std::vector<std::string> &complaints) {
+    if (format == "text")
+      add(stem_ + ".txt", text_report(results_));
+    else if (format == "md")
+      add(stem_ + ".md", markdown_report(results_));
+    else if (format == "json")
+      add(stem_ + ".json", json_text(results_));
+    else if (format == "html")
+      add("report.html", html_page(results_, load_page_files(sources_.page_directory)));
+    else if (format == "tex") {
+      add(stem_ + "_tables.tex", latex_report(results_));
+      add(stem_ + ".tex", latex_article(results_, stem_ + "_tables"));
+    } else if (format == "csv") {
+      add(stem_ + ".csv", csv_report(results_));
+      if (!results_.published.empty())
+        add(stem_ + "_published.csv", csv_published(results_));
+    } else if (format == "vtu") {
+      for (const Group &group : group_cells(results_))
+        if (const std::string text = collection(group, series_, directory_); !text.empty())
+          add(file_stem(group) + ".pvd", text);
+    } else if (!write_figures(gnuplot_figures(results_, series_), directory_ / "figures", complaints).empty())
+      files_.push_back(directory_ / "figures");
+  }
+
+  const std::vector<std::filesystem::path> &files() const { return files_; }
+
+private:
+  void add(const std::string &name, const std::string &contents) {
+    files_.push_back(directory_ / name);
+    write_file_atomically(files_.back(), contents);
+  }
+
+  const Results &results_;
+  std::filesystem::path directory_;
+  std::string stem_;
+  const ReportSources &sources_;
+  std::filesystem::path series_;
+  std::vector<std::filesystem::path> files_;
+};
+
+} // namespace
+
 std::vector<std::filesystem::path> write_reports(const Results &results, const std::filesystem::path &directory,
-                                                 const std::vector<std::string> &formats, const std::string &stem) {
+                                                 const std::vector<std::string> &formats, const std::string &stem,
+                                                 const ReportSources &sources, std::vector<std::string> *complaints) {
   const std::vector<std::string> &known = report_formats();
   for (const std::string &format : formats)
     if (std::find(known.begin(), known.end(), format) == known.end())
       throw std::invalid_argument(
           fmt::format("unknown report format '{}'; known are {}", format, fmt::join(known, ", ")));
   prepare_output_directory(directory);
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string &ending, const std::string &contents) {
-    files.push_back(directory / (stem + ending));
-    write_file_atomically(files.back(), contents);
-  };
-  for (const std::string &format : formats) {
-    if (format == "text")
-      write(".txt", text_report(results));
-    else if (format == "md")
-      write(".md", markdown_report(results));
-    else if (format == "json")
-      write(".json", json_text(results));
-    else
-      write(".csv", csv_report(results));
-    if (format == "csv" && !results.published.empty())
-      write("_published.csv", csv_published(results));
-  }
-  return files;
+  std::vector<std::string> unheard;
+  Writer writer(results, directory, stem, sources);
+  for (const std::string &format : formats)
+    writer.write(format, complaints != nullptr ? *complaints : unheard);
+  return writer.files();
 }
 
 } // namespace comparisons::reports

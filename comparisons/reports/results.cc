@@ -70,6 +70,14 @@ std::optional<double> median_seconds(const Cell &cell, std::string_view phase) {
   return found->second.median;
 }
 
+std::optional<double> relative_spread(const Cell &cell) {
+  const auto total = cell.seconds.find("total");
+  if (total == cell.seconds.end() || cell.repeats < 2 || !(total->second.median > 0))
+    return std::nullopt;
+  const double spread = (total->second.maximum - total->second.minimum) / total->second.median;
+  return std::isfinite(spread) ? std::optional(spread) : std::nullopt;
+}
+
 std::optional<double> relative_spacing(const Cell &cell) {
   const std::string &level = cell.level;
   const char *const end = level.data() + level.size();
@@ -79,8 +87,11 @@ std::optional<double> relative_spacing(const Cell &cell) {
     return 1.0 / (first - 1.0);
   if (failure == std::errc() && std::string_view(after, end) == " m" && first > 0)
     return first;
+  const auto n = static_cast<double>(cell.n_points);
+  if (cell.dimension == 1)
+    return n > 1 ? std::optional(1 / (n - 1)) : std::nullopt;
   if (cell.n_points > 0)
-    return 1.0 / std::sqrt(static_cast<double>(cell.n_points));
+    return cell.dimension == 2 ? 1 / std::sqrt(n) : 1 / std::cbrt(n);
   return std::nullopt;
 }
 

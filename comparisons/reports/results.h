@@ -39,6 +39,7 @@ struct Cell {
   std::string method;
   std::string label;
   std::string level;
+  int dimension = 2; ///< of the domain: 1, 2 or 3
   std::int64_t n_points = 0;
   std::int64_t n_dofs = 0;
   std::int64_t nonzeros = 0;
@@ -88,9 +89,12 @@ struct Published {
 
 /// Seconds (or a reason) that a method needs for a target error, interpolated inside the measured range.
 struct EqualError {
+  std::string benchmark;
+  std::string scene;
+  std::string variant;
   std::string error;
   double target = 0;
-  std::string method;
+  std::string method; ///< label of the cells
   std::optional<double> seconds;
   std::string reason; ///< why there are no seconds; empty otherwise
 };
@@ -108,6 +112,8 @@ struct Machine {
   int cores = 0;
   std::int64_t memory_bytes = 0;
   double load = 0; ///< one-minute load average at the start
+  /// The same at the end; the run itself is part of it.
+  std::optional<double> load_at_end = std::nullopt;
   std::string blas;
   int threads = 1;
   int simd_lanes = 1;
@@ -147,8 +153,15 @@ std::optional<double> reportable(const Cell &cell, std::string_view name);
 /// Median seconds of one phase if measured and finite.
 std::optional<double> median_seconds(const Cell &cell, std::string_view phase);
 
+/// Largest minus smallest total over its median; none for a cell that was timed once.
+std::optional<double> relative_spread(const Cell &cell);
+
+/// A relative spread above this is flagged in reports.
+inline constexpr double wide_spread = 0.1;
+
 /// Spacing that a level stands for, for observed rates: "16x4" -> 1/15 (particles along the first side),
-/// "0.005 m" -> 0.005, otherwise n_points^(-1/2). Only ratios between levels of one label have a meaning.
+/// "0.005 m" -> 0.005, otherwise n_points^(-1/dimension), on a line 1/(n_points - 1). Only ratios between levels of
+/// one label have a meaning.
 std::optional<double> relative_spacing(const Cell &cell);
 
 } // namespace comparisons::reports

@@ -159,7 +159,7 @@ std::string markdown_table(const Table &table) {
   std::string head = "|";
   std::string rule = "|";
   for (const Column &column : table.columns()) {
-    head += ' ' + escaped(column.header) + " |";
+    head += ' ' + escaped(one_line(column.header)) + " |";
     rule += column.align == Align::right ? " ---: |" : " --- |";
   }
   std::string text = head + '\n' + rule + '\n';
@@ -189,6 +189,12 @@ void Table::drop_columns_without(std::string_view empty) {
     for (auto &row : rows_)
       row.erase(row.begin() + static_cast<std::ptrdiff_t>(j));
   }
+}
+
+std::string one_line(std::string header) {
+  for (auto place = header.find("-\n"); place != std::string::npos; place = header.find("-\n"))
+    header.erase(place, 2);
+  return joined(std::move(header));
 }
 
 std::size_t display_width(std::string_view text) {

@@ -11,7 +11,7 @@ namespace comparisons::reports {
 enum class Align { left, right };
 
 struct Column {
-  std::string header; ///< lines separated by '\n'
+  std::string header; ///< lines separated by '\n', "-\n" within a word
   Align align = Align::right;
   /// A column of prose: broken between words when the table is too wide for the terminal.
   bool prose = false;
@@ -64,6 +64,8 @@ std::string render_text(const Document &document, std::size_t width = 120);
 /// GitHub's Markdown.
 std::string render_markdown(const Document &document);
 
+/// A header on one line.
+std::string one_line(std::string header);
 /// Characters that a terminal shows (UTF-8, one column a code point).
 std::size_t display_width(std::string_view text);
 /// Lines of at most `width` characters, broken at spaces; a longer word keeps a line of its own.

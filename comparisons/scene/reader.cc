@@ -134,9 +134,7 @@ std::vector<Declaration> study_declarations() {
 std::vector<Declaration> output_declarations() {
   return {
       {.name = "directory", .type = Type::text, .default_value = "out", .meaning = "folder of the results"},
-      {.name = "formats",
-       .type = Type::text,
-       .meaning = "list of the reports' formats; default text, json, csv and Markdown"},
+      {.name = "formats", .type = Type::text, .meaning = "list of the reports' formats; default all but vtu"},
   };
 }
 

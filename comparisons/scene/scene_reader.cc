@@ -295,7 +295,7 @@ void SceneReader::read_formats(const Node *output) {
   const auto names = names_of(vocabulary_.formats);
   const Entry *formats = output != nullptr ? output->find("formats") : nullptr;
   if (formats == nullptr) {
-    for (const auto *name : {"text", "json", "csv", "md"})
+    for (const auto *name : {"text", "json", "csv", "md", "tex", "html", "figures"})
       if (std::ranges::find(names, name) != names.end())
         scene_.formats.emplace_back(name);
     return;

@@ -25,7 +25,11 @@ scene::Vocabulary vocabulary_of(const Catalogue &catalogue) {
   const std::map<std::string, std::string> meanings{{"text", "aligned tables"},
                                                     {"md", "tables in Markdown"},
                                                     {"csv", "one row a cell and quantity"},
-                                                    {"json", "everything, results.json"}};
+                                                    {"json", "everything, results.json"},
+                                                    {"tex", "tables for LaTeX (booktabs)"},
+                                                    {"html", "a page to read and explore, report.html"},
+                                                    {"figures", "figures by gnuplot: script, data, SVG, PDF"},
+                                                    {"vtu", "fields of the solutions for ParaView"}};
   for (const auto &format : reports::report_formats()) {
     const auto found = meanings.find(format);
     vocabulary.formats.push_back({format, found == meanings.end() ? "" : found->second});

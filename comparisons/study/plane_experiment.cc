@@ -5,6 +5,7 @@
 #include "comparisons/metrics/memory.h"
 #include "comparisons/metrics/requested_quantities.h"
 #include "comparisons/reports/files.h"
+#include "comparisons/study/fields.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
 
@@ -52,8 +53,9 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
 
 class PlaneExperiment final : public Experiment {
 public:
-  PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods)
-      : problem_(std::move(problem)), methods_(methods) {}
+  PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods,
+                  bool with_fields)
+      : problem_(std::move(problem)), methods_(methods), with_fields_(with_fields) {}
 
   void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
            const std::filesystem::path &series_directory, reports::Cell &cell) const override {
@@ -99,6 +101,8 @@ public:
       reports::write_file_atomically(series_directory / file, series_text(line, *solution, problem_->exact()));
       cell.series.push_back({line.name, file});
     }
+    if (with_fields_)
+      write_fields(*solution, request, level, series_directory, cell);
   }
 
   void prepare() const override { problem_->exact(); }
@@ -137,6 +141,21 @@ public:
   }
 
 private:
+  void write_fields(const methods::Solution &solution, const scene::MethodRequest &request, const scene::Level &level,
+                    const std::filesystem::path &series_directory, reports::Cell &cell) const {
+    const auto &p = request.parameters;
+    const int degree = p.has("element") ? p.text("element").back() - '0' : 1;
+    const auto grid = solution.own_points().empty() ? grid_of(problem_->mesh(level), degree)
+                                                    : grid_of(solution.own_points(), problem_->cloud(level).regions);
+    const auto fields = fields_on(grid, solution, *problem_);
+    const std::string table = series_file(cell, "field");
+    const std::string vtu = table.substr(0, table.rfind('.')) + ".vtu";
+    reports::write_file_atomically(series_directory / vtu, reports::vtu_text(grid, fields));
+    reports::write_file_atomically(series_directory / table, reports::field_table(grid, fields));
+    cell.series.push_back({"vtu", vtu});
+    cell.series.push_back({"field", table});
+  }
+
   const methods::Method &find(const std::string &name) const {
     for (const auto &method : methods_)
       if (method.description.name == name)
@@ -151,14 +170,15 @@ private:
 
   std::unique_ptr<problems::PlaneProblem> problem_;
   const std::vector<methods::Method> &methods_;
+  bool with_fields_;
   mutable std::map<std::string, problems::Quadrature> quadratures_;
 };
 
 } // namespace
 
 std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
-                                                  const std::vector<methods::Method> &methods) {
-  return std::make_unique<PlaneExperiment>(std::move(problem), methods);
+                                                  const std::vector<methods::Method> &methods, bool with_fields) {
+  return std::make_unique<PlaneExperiment>(std::move(problem), methods, with_fields);
 }
 
 } // namespace comparisons::study

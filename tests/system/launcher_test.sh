@@ -130,6 +130,16 @@ test_root_installs_only_what_is_missing() {
   called '^apt-get .*install --yes --no-install-recommends libcli11-dev$' || fail "not installed as expected"
 }
 
+test_a_command_that_is_there_needs_no_package() {
+  printf '[build]\nhere | exists_here\nmissing | exists_nowhere\n' >"$project/packages.txt"
+  stand_in dpkg-query <<<'exit 0'
+  stand_in id <<<'echo 0'
+  stand_in exists_here <<<'exit 0'
+  launch --version
+  called '^env .*install.* missing$|^apt-get .*install.* missing$' || fail "the package is not installed"
+  if called ' here'; then fail "a package was installed although its command is there"; fi
+}
+
 test_a_failed_installation_stops() {
   stand_in id <<<'echo 0'
   stand_in dpkg-query <<<'exit 1'

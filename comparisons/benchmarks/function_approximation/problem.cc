@@ -318,6 +318,7 @@ private:
     const double basis_seconds = watch.lap();
     const double total = points_seconds + neighbour_seconds + basis_seconds;
     cell.memory_bytes = memory.bytes();
+    cell.dimension = dim;
     cell.n_points = static_cast<std::int64_t>(arrangement.positions.size());
     cell.n_dofs = cell.n_points;
     for (const auto &[phase, seconds] :
@@ -367,6 +368,7 @@ private:
         degree, n_cells);
     const double total = watch.lap();
     cell.n_dofs = static_cast<std::int64_t>(interpolant.n_dofs());
+    cell.dimension = dim;
     cell.n_points = cell.n_dofs;
     cell.seconds["total"] = {total, total, total};
     if (!with_errors)

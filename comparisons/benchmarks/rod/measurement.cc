@@ -76,6 +76,7 @@ void Measurement::add(const std::map<std::string, double> &errors) {
 }
 
 void Measurement::write(reports::Cell &cell) const {
+  cell.dimension = 1;
   cell.memory_bytes = memory_.bytes();
   double total = 0;
   for (const auto &[phase, value] : seconds) {

@@ -63,6 +63,7 @@ public:
     measurement.seconds["points"] += watch.lap();
     const Spectrum spectrum = request.name == "fem" ? by_elements(request.parameters, places, measurement.seconds)
                                                     : by_particles(request.parameters, places, measurement.seconds);
+    cell.dimension = 1;
     cell.n_points = arrangement.n;
     cell.n_dofs = spectrum.n_dofs;
     cell.nonzeros = spectrum.nonzeros;

@@ -158,6 +158,7 @@ public:
     }
     const auto function = make(request, cell);
     const double total = watch.lap();
+    cell.dimension = 1;
     cell.n_points = level.counts.at(0);
     cell.seconds["total"] = {total, total, total};
     if (!with_errors)

@@ -162,12 +162,15 @@ TEST_F(Files, PreparingMakesTheDirectoryAndLeavesItEmpty) {
 
 TEST_F(Files, ReportsAreWrittenByFormat) {
   const auto files = write_reports(reports_sample::results(), directory_ / "out", report_formats(), "results");
-  const std::vector<fs::path> expected{directory_ / "out" / "results.txt", directory_ / "out" / "results.md",
-                                       directory_ / "out" / "results.csv", directory_ / "out" / "results_published.csv",
-                                       directory_ / "out" / "results.json"};
+  const std::vector<fs::path> expected{
+      directory_ / "out" / "results.txt",  directory_ / "out" / "results.md",
+      directory_ / "out" / "results.csv",  directory_ / "out" / "results_published.csv",
+      directory_ / "out" / "results.json", directory_ / "out" / "results_tables.tex",
+      directory_ / "out" / "results.tex",  directory_ / "out" / "report.html",
+      directory_ / "out" / "figures"};
   EXPECT_EQ(files, expected);
   for (const fs::path &file : files)
-    EXPECT_GT(fs::file_size(file), 100u);
+    EXPECT_TRUE(fs::is_directory(file) || fs::file_size(file) > 100u) << file;
   EXPECT_THROW(write_reports(Results(), directory_ / "other", {"text", "word"}, "results"), std::invalid_argument);
   EXPECT_FALSE(fs::exists(directory_ / "other"));
 }

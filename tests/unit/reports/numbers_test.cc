@@ -1,9 +1,14 @@
-// Every number that text, Markdown and CSV print is the JSON's, rounded to the printed digits.
+// Every number that text, Markdown, LaTeX, CSV and the page print is the JSON's, rounded to the printed digits.
 
+#include "comparisons/reports/answers.h"
+#include "comparisons/reports/answers_section.h"
 #include "comparisons/reports/groups.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/numbers.h"
+#include "comparisons/reports/page/page.h"
 #include "comparisons/reports/reports.h"
+#include "comparisons/reports/theory.h"
+#include "unit/reports/parsed_tables.h"
 #include "unit/reports/sample.h"
 
 #include <gtest/gtest.h>
@@ -11,119 +16,13 @@
 #include <cstdlib>
 #include <map>
 #include <sstream>
+#include <zlib.h>
 
 using namespace comparisons::reports;
+using namespace reports_sample;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-struct ParsedTable {
-  std::string section; ///< heading of level 2
-  std::string title;   ///< heading of level 3
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-};
-
-std::string trimmed(const std::string &text) {
-  const auto begin = text.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
-std::vector<std::string> lines_of(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    lines.push_back(line);
-  return lines;
-}
-
-std::vector<std::string> markdown_fields(const std::string &line) {
-  std::vector<std::string> fields(1);
-  for (std::size_t i = 1; i < line.size(); ++i)
-    if (line[i] == '\\' && i + 1 < line.size())
-      fields.back() += line[++i];
-    else if (line[i] == '|')
-      fields.emplace_back();
-    else
-      fields.back() += line[i];
-  fields.pop_back();
-  for (std::string &field : fields)
-    field = trimmed(field);
-  return fields;
-}
-
-std::vector<ParsedTable> parse_markdown(const std::string &text) {
-  std::vector<ParsedTable> tables;
-  std::string section, title, previous;
-  for (const std::string &line : lines_of(text)) {
-    if (line.starts_with("## "))
-      section = line.substr(3), title.clear();
-    if (line.starts_with("### "))
-      title = line.substr(4);
-    if (line.starts_with("| ---"))
-      tables.push_back({section, title, markdown_fields(previous), {}});
-    else if (line.starts_with("|") && previous.starts_with("|"))
-      tables.back().rows.push_back(markdown_fields(line));
-    previous = line;
-  }
-  return tables;
-}
-
-/// Columns of a text table are where its rule has dashes.
-std::vector<std::string> text_fields(const std::string &line, const std::string &rule) {
-  std::vector<std::string> fields;
-  for (std::size_t begin = 0; begin < rule.size();) {
-    const std::size_t end = std::min(rule.find(' ', begin), rule.size());
-    fields.push_back(begin < line.size() ? trimmed(line.substr(begin, end - begin)) : "");
-    begin = std::min(rule.find('-', end), rule.size());
-  }
-  return fields;
-}
-
-bool is_rule(const std::string &line) {
-  return line.find("--  --") != std::string::npos && line.find_first_not_of(" -") == std::string::npos;
-}
-
-/// A line without a number goes on with the words of the row above.
-void append_row(ParsedTable &table, const std::vector<std::string> &fields) {
-  const auto is_words = [](const std::string &field) {
-    return field.empty() || field.find_first_of("0123456789-") == std::string::npos;
-  };
-  const std::size_t n_words = static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), is_words));
-  if (table.rows.empty() || n_words < fields.size()) {
-    table.rows.push_back(fields);
-    return;
-  }
-  for (std::size_t j = 0; j < fields.size(); ++j)
-    table.rows.back()[j] = trimmed(table.rows.back()[j] + " " + fields[j]);
-}
-
-std::vector<ParsedTable> parse_text(const std::string &text) {
-  std::vector<ParsedTable> tables;
-  const std::vector<std::string> lines = lines_of(text);
-  std::string section, title;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (i + 1 < lines.size() && lines[i + 1].starts_with("--") && !is_rule(lines[i + 1]) && !lines[i].empty())
-      section = lines[i], title.clear();
-    if (!is_rule(lines[i]))
-      continue;
-    std::size_t top = i;
-    while (top > 0 && !lines[top - 1].empty())
-      --top;
-    if (top >= 2 && !lines[top - 2].empty() && !lines[top - 2].starts_with("--"))
-      title = lines[top - 2];
-    ParsedTable table{section, title, std::vector<std::string>(text_fields("", lines[i]).size()), {}};
-    for (std::size_t k = top; k < i; ++k) {
-      const auto fields = text_fields(lines[k], lines[i]);
-      for (std::size_t j = 0; j < fields.size(); ++j)
-        table.header[j] = trimmed(table.header[j] + " " + fields[j]);
-    }
-    for (std::size_t k = i + 1; k < lines.size() && !lines[k].empty(); ++k)
-      append_row(table, text_fields(lines[k], lines[i]));
-    tables.push_back(std::move(table));
-  }
-  return tables;
-}
 
 /// Half a unit of the last digit that is printed, and the rounding of the comparison itself.
 double half_unit(const std::string &printed) {
@@ -176,7 +75,10 @@ std::optional<Json> value_of(const Json &cell, const std::string &section, const
       {"total s", "/seconds/total"},
       {"total minimum", "/seconds/minimum/total"},
       {"total maximum", "/seconds/maximum/total"},
-      {"repeats", "/seconds/repeats"}};
+      {"neigh- bours", "/seconds/neighbours"},
+      {"runs", "/seconds/repeats"}};
+  if (header == "spread %")
+    return scaled(cell["seconds"]["spread"], 100);
   if (header == "method" || header == "level" || header == "status")
     return std::nullopt;
   if (header == "memory MB")
@@ -247,15 +149,68 @@ void check_ledger_table(Comparison &comparison, const Json &json, const ParsedTa
   EXPECT_EQ(i, values.size());
 }
 
+/// "cantilever / convergence: displacement l2 relative".
+std::string equal_error_title(const Json &entry) {
+  std::string title = entry["benchmark"].get<std::string>() + " / " + entry["scene"].get<std::string>();
+  if (entry["variant"] != "")
+    title += ", " + entry["variant"].get<std::string>();
+  return title + ": " + words_of(entry["error"]);
+}
+
 void check_equal_error(Comparison &comparison, const Json &json, const ParsedTable &table) {
-  ASSERT_EQ(table.rows.size(), json["equal_error"].size());
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    comparison.expect_printed(table.rows[i][1], json["equal_error"][i]["target"], "target");
-    comparison.expect_printed(table.rows[i][3], json["equal_error"][i]["seconds"], "seconds");
+  std::size_t n = 0;
+  for (const Json &entry : json["equal_error"]) {
+    if (equal_error_title(entry) != table.title)
+      continue;
+    const std::string column = "s for " + target_text(entry["target"], entry["error"].get<std::string>());
+    const auto j = std::find(table.header.begin(), table.header.end(), column) - table.header.begin();
+    const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const auto &fields) { return fields[0] == entry["method"]; });
+    ASSERT_NE(row, table.rows.end()) << entry;
+    ASSERT_LT(static_cast<std::size_t>(j), table.header.size()) << column;
+    comparison.expect_printed((*row)[static_cast<std::size_t>(j)], entry["seconds"], table.title + ", " + column);
+    ++n;
+  }
+  EXPECT_EQ(n, table.rows.size() * (table.header.size() - 1)) << table.title;
+}
+
+/// The front's own numbers, and those made of them.
+void check_pareto(Comparison &comparison, const Json &json, const ParsedTable &table) {
+  for (const auto &row : table.rows) {
+    const Json *cell = find_cell(json, table.title, row[1], row[2]);
+    ASSERT_NE(cell, nullptr) << table.title << ", " << row[1];
+    std::string name = row[0];
+    std::replace(name.begin(), name.end(), ' ', '_');
+    const double error = cell->at("errors").at(name), seconds = cell->at("seconds").at("total");
+    comparison.expect_printed(row[3], error, row[0]);
+    comparison.expect_printed(row[4], seconds, "seconds");
+    comparison.expect_printed(row[5], 1 / (error * seconds), "efficiency");
+    comparison.expect_printed(row[6], 1e6 / (error * cell->at("memory_bytes").get<double>()), "per MB");
   }
 }
 
-void check(const std::vector<ParsedTable> &tables) {
+void check_rates(Comparison &comparison, const Results &results, const ParsedTable &table) {
+  for (const auto &row : table.rows)
+    for (const Group &group : group_cells(results)) {
+      if (group.title() != table.title)
+        continue;
+      std::string name = row[0];
+      std::replace(name.begin(), name.end(), ' ', '_');
+      for (const MethodSeries &series : series_of(group)) {
+        if (series.label != row[1])
+          continue;
+        std::istringstream printed(row[2]);
+        std::string word;
+        for (const Cell *cell : series.cells)
+          if (const auto observed = observed_rate(group, *cell, name)) {
+            printed >> word;
+            comparison.expect_printed(word, *observed, row[1]);
+          }
+      }
+    }
+}
+
+void check(const std::vector<ParsedTable> &tables, const std::map<std::string, int> &fewer = {}) {
   const Results results = reports_sample::results();
   const Json json = to_json(results);
   Comparison comparison;
@@ -264,18 +219,53 @@ void check(const std::vector<ParsedTable> &tables) {
     ++seen[table.section];
     if (table.section == "Seconds for equal errors")
       check_equal_error(comparison, json, table);
-    else if (table.section != "Published numbers and claims")
+    else if (table.section.starts_with("Not beaten"))
+      check_pareto(comparison, json, table);
+    else if (table.section == "Orders of convergence")
+      check_rates(comparison, results, table);
+    else if (table.section == "Comparison" || table.section == "Seconds by phase" ||
+             table.section == "Further errors and quantities")
       check_cell_table(comparison, json, results, table);
-    else if (table.header[1] != "claim")
+    else if (table.section == "Published numbers and claims" && table.header[1] != "claim")
       check_ledger_table(comparison, json, table);
   }
-  const std::map<std::string, int> expected{{"Comparison", 3},
-                                            {"Published numbers and claims", 2},
-                                            {"Seconds for equal errors", 1},
-                                            {"Seconds by phase", 3},
-                                            {"Further errors and quantities", 3}};
+  std::map<std::string, int> expected{{"Comparison", 3},
+                                      {"Published numbers and claims", 2},
+                                      {"Seconds for equal errors", 2},
+                                      {"Not beaten in seconds and error (Pareto front)", 2},
+                                      {"Orders of convergence", 1},
+                                      {"Scenes", 1},
+                                      {"Summary", 1},
+                                      {"Seconds by phase", 3},
+                                      {"Further errors and quantities", 3}};
+  for (const auto &[section, n] : fewer)
+    expected[section] = n;
+  std::erase_if(expected, [](const auto &entry) { return entry.second == 0; });
   EXPECT_EQ(seen, expected);
   EXPECT_GT(comparison.n_compared(), 150u);
+}
+
+/// Base64 and zlib, as the page holds its data.
+std::string unpacked(const std::string &text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int n_bits = 0;
+  for (const char c : text) {
+    if (c == '=')
+      break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    n_bits += 6;
+    if (n_bits >= 8)
+      bytes += static_cast<char>(bits >> (n_bits -= 8) & 0xff);
+  }
+  std::string whole(1000000, '\0');
+  uLongf size = whole.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef *>(whole.data()), &size, reinterpret_cast<const Bytef *>(bytes.data()),
+                       bytes.size()),
+            Z_OK);
+  whole.resize(size);
+  return whole;
 }
 
 /// RFC 4180.
@@ -304,6 +294,22 @@ std::vector<std::vector<std::string>> parse_csv(const std::string &text) {
 TEST(ReportNumbers, TextShowsTheJson) { check(parse_text(text_report(reports_sample::results()))); }
 
 TEST(ReportNumbers, MarkdownShowsTheJson) { check(parse_markdown(markdown_report(reports_sample::results()))); }
+
+TEST(ReportNumbers, LatexShowsTheJson) { check(parse_latex(latex_report(reports_sample::results()))); }
+
+/// The page leaves further quantities, and the phases of all but the main scene, to its data and the explorer.
+TEST(ReportNumbers, ThePageShowsTheJson) {
+  check(parse_html(html_page(reports_sample::results(), {})),
+        {{"Further errors and quantities", 0}, {"Seconds by phase", 1}});
+}
+
+TEST(ReportNumbers, ThePageHoldsTheJson) {
+  const std::string page = html_page(reports_sample::results(), {});
+  const std::string tag = "<script type='text/plain' id='results'>";
+  const auto begin = page.find(tag) + tag.size();
+  EXPECT_EQ(Json::parse(unpacked(page.substr(begin, page.find("</script>", begin) - begin))),
+            to_json(reports_sample::results()));
+}
 
 TEST(ReportNumbers, CsvHoldsEveryNumberInFull) {
   const Json json = to_json(reports_sample::results());

@@ -3,6 +3,7 @@
 #include "comparisons/reports/groups.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/ledger_section.h"
+#include "comparisons/reports/page/page.h"
 #include "comparisons/reports/table.h"
 #include "unit/reports/sample.h"
 
@@ -33,6 +34,8 @@ TEST(Reports, SameResultsSameBytes) {
   EXPECT_EQ(markdown_report(again), markdown_report(results));
   EXPECT_EQ(csv_report(again), csv_report(results));
   EXPECT_EQ(csv_published(again), csv_published(results));
+  EXPECT_EQ(latex_report(again), latex_report(results));
+  EXPECT_EQ(html_page(again, {}), html_page(results, {}));
 }
 
 TEST(Reports, HeaderSaysWhatWasRunWhere) {
@@ -57,6 +60,8 @@ TEST(Reports, MainComparisonFirstUnexpectedLast) {
   EXPECT_LT(main, other);
   EXPECT_LT(other, ledger);
   EXPECT_LT(ledger, unexpected);
+  EXPECT_LT(unexpected, text.find("Summary\n"));
+  EXPECT_TRUE(text.ends_with("2 unexpected outcomes, named above.\n"));
   EXPECT_TRUE(contains(text.substr(unexpected), "*** cantilever / convergence, broken"));
   EXPECT_TRUE(contains(text.substr(unexpected), "Table 10 (weak1, 16x4): differs (UNEXPECTED)"));
 }
@@ -66,6 +71,7 @@ TEST(Reports, NothingUnexpectedIsSaid) {
   std::erase_if(results.cells, [](const Cell &cell) { return !cell.expected; });
   std::erase_if(results.published, [](const Published &entry) { return !entry.expected; });
   EXPECT_TRUE(unexpected_outcomes(results).empty());
+  results.not_comparable.clear();
   EXPECT_TRUE(text_report(results).ends_with("No unexpected outcomes.\n"));
   EXPECT_FALSE(contains(text_report(results), "UNEXPECTED"));
 }
