@@ -60,11 +60,10 @@ TEST(Examples, thick_cylinder) { expect_figure("thick_cylinder/scene.toml", "hoo
 TEST(Examples, bracket) {
   for (const auto &cell : run(read_example("bracket/scene.toml"))) {
     SCOPED_TRACE(name_of(cell));
-    EXPECT_EQ(reports::to_text(cell.status), std::string(cell.method == "fem" ? "ok" : "refused"));
-    if (cell.status != reports::Status::ok)
-      continue;
-    EXPECT_LT(cell.quantities.at("bolt_force_error"), 1e-8);
-    EXPECT_LT(l2(cell), 2e-3);
+    ASSERT_EQ(cell.status, reports::Status::ok);
+    const bool fem = cell.method == "fem";
+    EXPECT_LT(cell.quantities.at("bolt_force_error"), fem ? 1e-8 : 0.1);
+    EXPECT_LT(l2(cell), fem ? 2e-3 : 0.1);
   }
 }
 
