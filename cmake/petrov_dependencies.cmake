@@ -13,8 +13,11 @@ find_path(UMFPACK_INCLUDE_DIR umfpack.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(UMFPACK_LIBRARY umfpack REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_library(MUPARSER_LIBRARY muparser REQUIRED)
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
 find_path(TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
-mark_as_advanced(UMFPACK_INCLUDE_DIR UMFPACK_LIBRARY CHOLMOD_LIBRARY MUPARSER_LIBRARY TOML_INCLUDE_DIR)
+mark_as_advanced(UMFPACK_INCLUDE_DIR UMFPACK_LIBRARY CHOLMOD_LIBRARY MUPARSER_LIBRARY GMSH_INCLUDE_DIR GMSH_LIBRARY
+  TOML_INCLUDE_DIR)
 
 # UMFPACK, CHOLMOD and deal.II ask for libblas.so.3, which may be the slow reference BLAS. libopenblas linked
 # first, and kept although nothing calls it by name, answers for every BLAS and LAPACK symbol of the process

@@ -4,6 +4,8 @@
 #include "comparisons/benchmarks/cantilever/problem.h"
 #include "comparisons/benchmarks/detonation/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
+#include "comparisons/benchmarks/geometry/benchmark.h"
+#include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
 #include "comparisons/benchmarks/rod_vibration/problem.h"
@@ -28,6 +30,7 @@ study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make
 
 std::vector<study::Benchmark> benchmark_table() {
   return {plane(cantilever::description(), cantilever::make_problem),
+          plane(plate_with_hole::description(), plate_with_hole::make_problem),
           function_approximation::benchmark(),
           smoothing_functions::benchmark(),
           rod_derivative::benchmark(),
@@ -35,7 +38,8 @@ std::vector<study::Benchmark> benchmark_table() {
           rod_vibration::benchmark(),
           bar_wave::benchmark(),
           shock_tube::benchmark(),
-          detonation::benchmark()};
+          detonation::benchmark(),
+          geometry::benchmark()};
 }
 
 } // namespace comparisons::benchmarks

@@ -17,20 +17,19 @@ namespace reference = fem_reference::elasticity;
 using scene::Type;
 
 reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
-  if (statement.regions.size() != 1)
-    throw Refused("several materials are not possible yet");
-  const auto &material = statement.regions.front().material;
-  reference::PlaneProblem problem{{},
-                                  reference::Material(material.youngs_modulus, material.poisson_ratio,
-                                                      material.plane_strain ? reference::PlaneModel::plane_strain
-                                                                            : reference::PlaneModel::plane_stress),
-                                  {},
-                                  statement.body_force};
+  reference::PlaneProblem problem;
+  for (const auto &[name, material, boundary] : statement.regions)
+    problem.materials.emplace_back(material.youngs_modulus, material.poisson_ratio,
+                                   material.plane_strain ? reference::PlaneModel::plane_strain
+                                                         : reference::PlaneModel::plane_stress);
+  problem.body_force = statement.body_force;
   problem.mesh.vertices = std::move(mesh.vertices);
   for (const auto &cell : mesh.cells)
-    problem.mesh.cells.push_back(cell.vertices);
+    problem.mesh.cells.push_back({cell.vertices, cell.n_vertices, cell.region});
   for (const auto &edge : mesh.boundary)
-    problem.mesh.boundary.push_back({edge.vertices, edge.id});
+    problem.mesh.boundary.push_back({edge.vertices, edge.id, edge.arc_centre});
+  for (const auto &edge : mesh.curved_edges)
+    problem.mesh.curved_edges.push_back({edge.vertices, edge.midpoint});
   for (const auto &[id, condition] : statement.conditions) {
     reference::BoundaryCondition translated;
     for (std::size_t k = 0; k < 2; ++k)
@@ -59,7 +58,7 @@ public:
     record_.quantities = {{"backward_error", solution_.backward_error()}};
   }
 
-  std::vector<std::string> fields() const override { return {"displacement", "stress"}; }
+  std::vector<std::string> fields() const override { return {"displacement", "stress", "recovered_stress"}; }
   std::size_t n_components(std::string_view field) const override { return field == "displacement" ? 2 : 3; }
 
   void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
@@ -69,14 +68,30 @@ public:
       solution_.displacement(points, u);
       for (std::size_t i = 0; i < u.size(); ++i)
         std::copy(u[i].begin(), u[i].end(), values.begin() + static_cast<std::ptrdiff_t>(2 * i));
-    } else if (field == "stress") {
+    } else if (field == "stress" || field == "recovered_stress") {
       std::vector<std::array<double, 3>> s(points.size());
-      solution_.stress(points, s);
+      if (field == "stress")
+        solution_.stress(points, s);
+      else
+        solution_.recovered_stress(points, s);
       for (std::size_t i = 0; i < s.size(); ++i)
         std::copy(s[i].begin(), s[i].end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
     } else
-      throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
+      throw std::invalid_argument(
+          fmt::format("no field '{}'; there are displacement, stress and recovered_stress", field));
   }
+
+  std::optional<ForceBalance> own_forces() const override {
+    ForceBalance balance;
+    for (const auto &forces : {solution_.reactions(), solution_.applied_tractions()})
+      for (const auto &[id, force] : forces)
+        for (std::size_t d = 0; d < 2; ++d)
+          balance.boundary[id][d] += force[d];
+    balance.body = solution_.applied_body_force();
+    return balance;
+  }
+
+  std::optional<double> own_strain_energy() const override { return solution_.strain_energy(); }
 
 private:
   reference::PlaneSolution solution_;
@@ -99,13 +114,13 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
 Method fem() {
   Method method;
   method.description.name = "fem";
-  method.description.meaning = "finite elements by deal.II, isoparametric Q1 to Q4";
+  method.description.meaning = "isoparametric finite elements, Q1 to Q4 on quadrilaterals and P1 to P4 on triangles";
   method.description.parameters = {
       {.name = "element",
        .type = Type::choice,
        .choices = {"Q1", "Q2", "Q3", "Q4"},
        .default_value = "Q2",
-       .meaning = "element: degree of displacement and geometry"},
+       .meaning = "degree of displacement and geometry; on triangles Q2 stands for P2, and so on"},
       {.name = "solver",
        .type = Type::choice,
        .choices = {"cholesky", "umfpack"},

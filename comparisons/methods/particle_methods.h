@@ -11,4 +11,7 @@ Method weak1();
 /// MLPG with differentiated shape functions, section 3.2.2.
 Method weak2();
 
+/// The strong form inside with weak1's rows on the boundary, where collocation is inaccurate.
+Method hybrid();
+
 } // namespace comparisons::methods

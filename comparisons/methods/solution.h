@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,15 @@ struct SolveRecord {
   std::vector<std::string> warnings;
 };
 
+/// Forces on the body by the method's own discrete equations, N per m of thickness: what a method that satisfies
+/// equilibrium exactly (finite elements) can say of itself.
+struct ForceBalance {
+  using Force = std::array<double, 2>;
+  /// By boundary id: the support's force where displacement is prescribed, the applied one where traction is.
+  std::map<int, Force> boundary;
+  Force body{};
+};
+
 /// The solution of a method: all that metrics and reports know of it.
 class Solution {
 public:
@@ -37,6 +47,12 @@ public:
   /// @throws std::invalid_argument for a field that the solution does not have
   virtual void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
                         std::span<double> values) const = 0;
+
+  /// Nothing: the forces are integrals of the stress over the boundary.
+  virtual std::optional<ForceBalance> own_forces() const { return {}; }
+  /// J per m of thickness by the method's own quadrature; nothing: an integral of the stress by the quadrature of
+  /// the error norms.
+  virtual std::optional<double> own_strain_energy() const { return {}; }
 
   const SolveRecord &record() const { return record_; }
 

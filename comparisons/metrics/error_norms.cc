@@ -1,5 +1,7 @@
 #include "comparisons/metrics/error_norms.h"
 
+#include "comparisons/metrics/energy.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,15 +25,6 @@ std::vector<double> evaluate(const methods::Solution &solution, const char *fiel
       throw std::runtime_error(
           fmt::format("the {} at ({:.6g}, {:.6g}) is not finite", field, points[i / n][0], points[i / n][1]));
   return values;
-}
-
-/// sigma : C^-1 : sigma for isotropic elasticity in the plane, with E0, nu0.
-double energy(const Stress2 &s, const problems::Material &material) {
-  const double nu = material.poisson_ratio;
-  const double nu0 = material.plane_strain ? nu / (1 - nu) : nu;
-  const double e0 = material.plane_strain ? material.youngs_modulus / ((1 - nu) * (1 + nu)) : material.youngs_modulus;
-  return (s[0] * s[0] + s[1] * s[1] - 2 * nu0 * s[0] * s[1]) / e0 +
-         2 * (1 + nu) * s[2] * s[2] / material.youngs_modulus;
 }
 
 void add_displacement_errors(const methods::Solution &solution, const problems::PlaneProblem &problem,
@@ -82,30 +75,50 @@ void add_stress_errors(const methods::Solution &solution, const problems::PlaneP
     norm += weight * (s[0] * s[0] + s[1] * s[1] + 2 * s[2] * s[2]);
     const auto region = quadrature.regions.empty() ? 0 : static_cast<std::size_t>(quadrature.regions[q]);
     const auto &material = problem.statement().regions[region].material;
-    energy_difference += weight * energy(error, material);
-    energy_norm += weight * energy(s, material);
+    energy_difference += weight * twice_energy_density(error, material);
+    energy_norm += weight * twice_energy_density(s, material);
   }
   errors["stress_l2_relative"] = std::sqrt(difference / norm);
   // At nu = 1/2 in plane strain the energy of a pressure error is zero to rounding, or just below.
   errors["energy_relative"] = std::sqrt(std::max(0.0, energy_difference) / energy_norm);
 }
 
-void add_largest_error(const methods::Solution &solution, const problems::PlaneProblem &problem,
-                       const problems::PlaneProblem::LargestError &request, std::map<std::string, double> &errors) {
-  for (const auto &line : problem.sample_lines()) {
-    if (line.name != request.line)
-      continue;
-    const auto computed = evaluate(solution, "displacement", line.points);
-    std::vector<Vector2> exact(line.points.size());
-    problem.exact().displacement(line.points, exact);
-    const auto k = static_cast<std::size_t>(request.component);
-    double largest = 0;
-    double largest_difference = 0;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      largest = std::max(largest, std::abs(exact[i][k]));
-      largest_difference = std::max(largest_difference, std::abs(computed[2 * i + k] - exact[i][k]));
-    }
-    errors[request.quantity] = largest_difference / largest;
+void add_component_error(const methods::Solution &solution, const problems::PlaneProblem &problem,
+                         std::span<const Point2> points, const problems::PlaneProblem::ComponentError &request,
+                         std::map<std::string, double> &errors) {
+  using Kind = problems::PlaneProblem::ComponentError::Kind;
+  const auto computed = evaluate(solution, "displacement", points);
+  std::vector<Vector2> exact(points.size());
+  problem.exact().displacement(points, exact);
+  const auto k = static_cast<std::size_t>(request.component);
+  double largest = 0;
+  double largest_difference = 0;
+  double squared = 0; // along the line, by the trapezoidal rule
+  double last = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double difference = std::abs(computed[2 * i + k] - exact[i][k]);
+    largest = std::max(largest, std::abs(exact[i][k]));
+    largest_difference = std::max(largest_difference, difference);
+    if (i > 0)
+      squared += 0.5 * (difference * difference + last * last) *
+                 std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+    last = difference;
+  }
+  errors[request.quantity] = request.kind == Kind::l2        ? std::sqrt(squared)
+                             : request.kind == Kind::largest ? largest_difference
+                                                             : largest_difference / largest;
+}
+
+void add_component_errors(const methods::Solution &solution, const problems::PlaneProblem &problem,
+                          const problems::Quadrature &quadrature, std::map<std::string, double> &errors) {
+  const auto requests = problem.component_errors();
+  const auto lines = requests.empty() ? std::vector<problems::SampleLine>{} : problem.sample_lines();
+  for (const auto &request : requests) {
+    if (request.line.empty())
+      add_component_error(solution, problem, quadrature.points, request, errors);
+    for (const auto &line : lines)
+      if (line.name == request.line)
+        add_component_error(solution, problem, line.points, request, errors);
   }
 }
 
@@ -114,10 +127,13 @@ void add_largest_error(const methods::Solution &solution, const problems::PlaneP
 std::map<std::string, double> error_norms(const methods::Solution &solution, const problems::PlaneProblem &problem,
                                           const problems::Quadrature &quadrature) {
   std::map<std::string, double> errors;
-  add_displacement_errors(solution, problem, quadrature, errors);
-  add_stress_errors(solution, problem, quadrature, errors);
-  if (const auto request = problem.largest_error())
-    add_largest_error(solution, problem, *request, errors);
+  const auto &exact = problem.exact();
+  if (exact.displacement)
+    add_displacement_errors(solution, problem, quadrature, errors);
+  if (exact.stress)
+    add_stress_errors(solution, problem, quadrature, errors);
+  if (exact.displacement)
+    add_component_errors(solution, problem, quadrature, errors);
   return errors;
 }
 

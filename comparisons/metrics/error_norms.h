@@ -16,7 +16,7 @@ namespace comparisons::metrics {
 /// - displacement_max_relative: largest |u_h - u| over largest |u| at the quadrature points;
 /// - stress_l2_relative: the same for stress, sigma_12 counted twice (tensor norm);
 /// - energy_relative: error in the energy norm over the energy norm of the solution;
-/// - and what the problem names as its largest error, such as u2_max_relative.
+/// - and what the problem asks for of one component (PlaneProblem::component_errors), such as u2_max_relative.
 ///
 /// @throws std::runtime_error if the solution is not finite at some point
 std::map<std::string, double> error_norms(const methods::Solution &solution, const problems::PlaneProblem &problem,

@@ -172,13 +172,21 @@ public:
   virtual Quadrature quadrature(const scene::Level &level) const = 0;
   virtual std::vector<SampleLine> sample_lines() const = 0;
   virtual std::vector<RequestedQuantity> quantities() const { return {}; }
-  /// Component of the displacement whose largest error is reported, and the line where it is sought.
-  struct LargestError {
+  /// What a reader of any result must know: how the geometry was taken, what the reference is.
+  virtual std::vector<std::string> remarks() const { return {}; }
+  /// Errors of one component of the displacement, besides the norms of all methods.
+  struct ComponentError {
+    enum class Kind {
+      largest_relative, ///< largest error over the largest exact value
+      largest,          ///< largest error, m
+      l2,               ///< square root of the integral of the squared error along the line, m^1.5
+    };
     std::string quantity; ///< "u2_max_relative"
     int component = 0;
-    std::string line;
+    std::string line; ///< of sample_lines(); empty: the points of the error quadrature
+    Kind kind = Kind::largest_relative;
   };
-  virtual std::optional<LargestError> largest_error() const { return {}; }
+  virtual std::vector<ComponentError> component_errors() const { return {}; }
 };
 
 } // namespace comparisons::problems

@@ -1,27 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include "meshless/cloud_generation/random.h"
 
 namespace comparisons::problems {
 
-/// SplitMix64 (Steele, Lea & Flood 2014): the same numbers for a seed on every machine, unlike the
-/// distributions of the standard library.
-class Random {
-public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  /// Uniform in [-1, 1).
-  double symmetric() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1.0p-52 - 1;
-  }
-
-private:
-  std::uint64_t state_;
-};
+using Random = meshless::cloud_generation::Random;
 
 } // namespace comparisons::problems

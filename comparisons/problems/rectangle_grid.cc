@@ -39,9 +39,7 @@ double RectangleGrid::spacing() const {
   return std::min((upper_[0] - lower_[0]) / (n_[0] - 1), (upper_[1] - lower_[1]) / (n_[1] - 1));
 }
 
-Cloud RectangleGrid::cloud() const {
-  return {points_, std::vector<double>(points_.size(), spacing()), {}, true};
-}
+Cloud RectangleGrid::cloud() const { return {points_, std::vector<double>(points_.size(), spacing()), {}, true}; }
 
 Mesh RectangleGrid::mesh() const {
   Mesh mesh;

@@ -7,9 +7,11 @@ namespace comparisons::program {
 
 namespace fs = std::filesystem;
 
-fs::path benchmarks_directory() {
-  const fs::path candidates[] = {fs::path(PETROV_INSTALL_DATA_DIR) / "benchmarks",
-                                 fs::path(PETROV_SOURCE_DIR) / "comparisons" / "benchmarks"};
+namespace {
+
+fs::path directory(const std::string &what, const fs::path &in_installation, const fs::path &in_source_tree) {
+  const fs::path candidates[] = {fs::path(PETROV_INSTALL_DATA_DIR) / in_installation,
+                                 fs::path(PETROV_SOURCE_DIR) / in_source_tree};
   // A program that runs from its build folder uses the scenes it was built from.
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -18,9 +20,15 @@ fs::path benchmarks_directory() {
   for (const int i : {installed ? 0 : 1, installed ? 1 : 0})
     if (fs::is_directory(candidates[i], error))
       return candidates[i];
-  throw std::runtime_error("the shipped scenes are neither in " + candidates[0].string() + " nor in " +
+  throw std::runtime_error("the shipped " + what + " are neither in " + candidates[0].string() + " nor in " +
                            candidates[1].string());
 }
+
+} // namespace
+
+fs::path benchmarks_directory() { return directory("scenes", "benchmarks", fs::path("comparisons") / "benchmarks"); }
+
+fs::path meshes_directory() { return directory("clouds and meshes", "meshes", "meshes"); }
 
 std::vector<fs::path> shipped_scenes(const std::string &benchmark) {
   std::vector<fs::path> scenes;
@@ -32,6 +40,17 @@ std::vector<fs::path> shipped_scenes(const std::string &benchmark) {
     const bool main_b = b.filename() == "scene.toml";
     return main_a != main_b ? main_a : a < b;
   });
+  return scenes;
+}
+
+std::vector<fs::path> example_scenes() {
+  std::vector<fs::path> scenes;
+  for (const auto &folder : fs::directory_iterator(benchmarks_directory().parent_path() / "examples"))
+    if (folder.is_directory())
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".toml")
+          scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
 

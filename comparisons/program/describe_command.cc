@@ -1,5 +1,6 @@
 #include "comparisons/program/describe_command.h"
 
+#include "comparisons/program/geometry_description.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/reports.h"
@@ -111,9 +112,14 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
     fmt::print("\nFields allocated: {}; of effects that are absent none.\n",
                called("gas_pressure") ? "mass, position, velocity, energy, density, smoothing length and their rates"
                                       : "displacement, velocity and the rows of derivatives");
+  if (scene->geometry != nullptr)
+    fmt::print("\n{}", describe_geometry(*scene));
   print_cells(*scene, catalogue);
-  fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
-             scene::describe_declarations(benchmark.material));
+  if (benchmark.own_geometry)
+    fmt::print("\n{}", describe_geometry_keys());
+  else
+    fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
+               scene::describe_declarations(benchmark.material));
   for (const auto &effect : vocabulary.effects)
     if (called(effect.name.c_str()) && !effect.parameters.empty())
       fmt::print("[effects.{}]\n{}\n", effect.name, scene::describe_declarations(effect.parameters));

@@ -225,16 +225,19 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
                        const study::Catalogue &catalogue) {
   std::vector<std::string> known;
   for (const auto &benchmark : catalogue.benchmarks)
-    known.push_back(benchmark.description.name);
+    if (!benchmark.description.own_geometry)
+      known.push_back(benchmark.description.name);
+  const auto all = known;
+  known.emplace_back("examples");
   std::vector<fs::path> files;
-  for (const auto &name : benchmarks.empty() ? known : benchmarks) {
+  for (const auto &name : benchmarks.empty() ? all : benchmarks) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const auto near = scene::nearest_name(name, known);
       fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "),
                  near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
       return usage_error;
     }
-    const auto scenes = shipped_scenes(name);
+    const auto scenes = name == "examples" ? example_scenes() : shipped_scenes(name);
     files.insert(files.end(), scenes.begin(), scenes.end());
   }
   auto scenes = read_scenes(files, options, catalogue);

@@ -95,14 +95,34 @@ Table comparison_table(const Group &group) {
   return table;
 }
 
+/// Warnings that all cells with a result have, if there are several: about the problem rather than a method.
+std::vector<std::string> common_warnings(const Group &group) {
+  std::vector<std::string> common;
+  std::size_t n_ok = 0;
+  for (const Cell *cell : group.cells) {
+    if (cell->status != Status::ok)
+      continue;
+    if (++n_ok == 1)
+      common = cell->warnings;
+    std::erase_if(common, [&](const std::string &warning) {
+      return std::find(cell->warnings.begin(), cell->warnings.end(), warning) == cell->warnings.end();
+    });
+  }
+  return n_ok > 1 ? common : std::vector<std::string>{};
+}
+
 std::vector<std::string> reasons(const Group &group) {
+  const auto common = common_warnings(group);
   std::vector<std::string> items;
+  for (const std::string &warning : common)
+    items.push_back("all: " + warning);
   for (const Cell *cell : group.cells) {
     if (cell->status != Status::ok || !cell->expected)
       items.push_back(fmt::format("{}: {}{}", cell_name(*cell), status_text(*cell),
                                   cell->reason.empty() ? std::string() : ": " + cell->reason));
     for (const std::string &warning : cell->warnings)
-      items.push_back(fmt::format("{}: {}", cell_name(*cell), warning));
+      if (cell->status != Status::ok || std::find(common.begin(), common.end(), warning) == common.end())
+        items.push_back(fmt::format("{}: {}", cell_name(*cell), warning));
   }
   return items;
 }

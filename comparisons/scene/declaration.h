@@ -40,6 +40,10 @@ enum class Type {
   text,   ///< any string; the method or benchmark checks its form
   choice, ///< one of `choices`
   point,  ///< two reals with the declared dimension
+  /// A real as above, or a function of x and y in SI ("1e6*y*(1-y)"), or one of `choices`; held as a text in SI.
+  expression,
+  /// A list of two of them, or one of `choices`; held as a text: "0; 1e6*y" (split_expressions).
+  expressions,
 };
 
 using Point = std::array<double, 2>;

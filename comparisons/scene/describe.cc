@@ -56,6 +56,10 @@ std::string type_text(const Declaration &declaration) {
     return "text";
   case Type::choice:
     return "one of";
+  case Type::expression:
+    return quantity + " or expression of x, y";
+  case Type::expressions:
+    return "two of " + quantity + " or expression of x, y";
   case Type::point:
     return plain ? "point" : fmt::format("point [{}]", unit_text(declaration.dimension));
   }
@@ -72,7 +76,7 @@ std::string default_text(const Declaration &declaration) {
 }
 
 std::string allowed_text(const Declaration &declaration) {
-  if (declaration.type == Type::choice)
+  if (!declaration.choices.empty())
     return fmt::format("{}", fmt::join(declaration.choices, ", "));
   return is_unbounded(declaration.range) ? "" : range_text(declaration.range, declaration.dimension);
 }

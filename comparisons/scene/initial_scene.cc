@@ -1,4 +1,5 @@
 #include "comparisons/scene/describe.h"
+#include "comparisons/scene/geometry_tables.h"
 #include "comparisons/scene/reader.h"
 #include "comparisons/scene/table_reader.h"
 #include "comparisons/scene/units.h"
@@ -44,6 +45,10 @@ Value placeholder(const Declaration &declaration) {
     return number;
   case Type::text:
     return std::string("fill in");
+  case Type::expression:
+    return std::string("0");
+  case Type::expressions:
+    return std::string("0; 0");
   case Type::choice:
     return declaration.choices.empty() ? std::string{} : declaration.choices.front();
   case Type::point:
@@ -79,7 +84,27 @@ std::string key_lines(std::span<const Declaration> declarations, bool quiet) {
 std::string level_list(const BenchmarkDescription &benchmark, std::span<const std::string> levels) {
   if (!levels.empty())
     return fmt::format("{}", fmt::join(levels, ", "));
+  if (benchmark.own_geometry)
+    return "\"mesh\", \"mesh/2\"";
   return benchmark.counts_per_level == 1 ? "16, 32" : "\"16x4\", \"31x7\"";
+}
+
+/// The tables of a geometry of one's own, to be filled in.
+std::string geometry_tables() {
+  std::string text = "\n[geometry]\n" + key_lines(geometry_declarations(), true);
+  text += "\n[[material]]  # one for each region, or one without the key region for the whole domain\n" +
+          key_lines(region_material_declarations(), true);
+  text += "\n[[boundary]]  # one for each group of curves; what is not named is free of traction\n" +
+          key_lines(boundary_declarations(), true);
+  const auto as_comments = [](const std::string &title, std::vector<Declaration> declarations) {
+    std::string lines = "\n# " + title + "\n";
+    for (const auto &declaration : declarations)
+      lines += fmt::format("# {:34} # {}\n", declaration.name + " =", comment(declaration));
+    return lines;
+  };
+  text += as_comments("[reference]  # what errors are relative to", reference_declarations());
+  text += as_comments("[[quantity]]  # figures and lines of interest", quantity_declarations());
+  return text;
 }
 
 } // namespace
@@ -100,13 +125,16 @@ std::string toml_text(const Value &value, const Dimension &dimension) {
 
 std::string initial_scene(const BenchmarkDescription &benchmark, std::span<const MethodDescription> methods,
                           std::span<const std::string> levels) {
-  std::string text = fmt::format("schema = 1\ntitle = {}\nbenchmark = {}\n", toml_string(benchmark.meaning),
-                                 toml_string(benchmark.name));
+  std::string text = fmt::format("schema = 1\ntitle = {}\n", toml_string(benchmark.meaning));
+  if (!benchmark.own_geometry)
+    text += fmt::format("benchmark = {}\n", toml_string(benchmark.name));
   text += "# Numbers are in SI; a quantity may carry its unit: \"226.9 GPa\".\n";
   if (!benchmark.problem.empty())
     text += "\n[problem]  # a list in place of a value makes one problem per combination\n" +
             key_lines(benchmark.problem, false);
-  if (!benchmark.material.empty())
+  if (benchmark.own_geometry)
+    text += geometry_tables();
+  else if (!benchmark.material.empty())
     text += "\n[material]\n" + key_lines(benchmark.material, false);
   if (!benchmark.effects.empty()) {
     text += "\n[effects]  # what is not named here is neither computed nor allocated\n";

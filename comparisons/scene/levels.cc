@@ -81,7 +81,29 @@ private:
     return level;
   }
 
+  /// "mesh", "mesh/2", "mesh/4" ...; nothing if the text is of another form.
+  static std::optional<Level> mesh_level(const std::string &text) {
+    int refinements = 0;
+    std::string name = "mesh";
+    constexpr int most = 10;
+    for (; name != text && refinements < most; ++refinements)
+      name = fmt::format("mesh/{}", 2 << refinements);
+    if (name != text)
+      return std::nullopt;
+    Level level;
+    level.refinements = refinements;
+    level.text = text;
+    return level;
+  }
+
   std::optional<Level> from_text(const Node &node) const {
+    if (form_.meshes) {
+      if (const auto level = mesh_level(node.text))
+        return level;
+      if (node.text.starts_with("mesh"))
+        return fail(node, fmt::format("{} is no level; allowed: {}", in_quotes(node.text), allowed_levels(form_)),
+                    "a refined mesh is \"mesh/2\", \"mesh/4\", ...");
+    }
     if (const auto counts = split_counts(node.text))
       return from_counts(node, *counts);
     const auto result = parse_quantity(node.text);
@@ -150,6 +172,8 @@ bool is_ambiguous(const Node &node, const LevelForm &form) {
 } // namespace
 
 std::string allowed_levels(const LevelForm &form) {
+  if (form.meshes)
+    return "\"mesh\" (as in the file), \"mesh/2\" (refined), a spacing such as \"5 mm\", or a count such as 188";
   if (form.counts_per_level == 1)
     return "a count such as 188, or a spacing such as \"5 mm\"";
   if (form.counts_per_level == 2)

@@ -16,6 +16,8 @@ struct LevelForm {
   /// 0 if the benchmark is unknown: every form passes.
   int counts_per_level = 0;
   std::string benchmark;
+  /// "mesh" and "mesh/2" are levels too.
+  bool meshes = false;
 };
 
 /// Reads the value of a key `levels`: a list of counts (188), pairs ("16x4" or [16, 4]) or spacings

@@ -108,6 +108,8 @@ private:
     const std::string &top = parts[0];
     if (top == "method")
       return apply_to_methods(path, parts, value);
+    if (Entry *list = root_.find(top); list != nullptr && list->value.is(Node::Kind::array) && has(lists(), top))
+      return apply_to_list(path, parts, list->value, value);
     if (top == "effects" && parts.size() == 3)
       return set_effect_key(parts[1], parts[2], value);
     if (has(top_tables(), top)) {
@@ -122,6 +124,22 @@ private:
     }
     fail(path, fmt::format("no such key {}; a key begins with one of: {}", in_quotes(top), fmt::join(all_tops(), ", ")),
          did_you_mean(top, all_tops()));
+  }
+
+  /// Lists of tables besides the methods.
+  static std::vector<std::string> lists() { return {"material", "boundary", "quantity"}; }
+
+  /// material[1].nu, or material.nu if there is one.
+  void apply_to_list(const std::string &path, const std::vector<std::string> &parts, Node &list, const Node &value) {
+    std::size_t index = 0;
+    const std::string &number = parts.size() == 3 ? parts[1] : "0";
+    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), index);
+    const bool good = status == std::errc{} && end == number.data() + number.size() && index < list.items.size();
+    if (!good || parts.size() < 2 || parts.size() > 3 || (parts.size() == 2 && list.items.size() != 1))
+      return fail(path, fmt::format("a key of [[{0}]] has the form {0}[0].KEY, with a number below {1}", parts[0],
+                                    list.items.size()));
+    if (list.items[index].is(Node::Kind::table))
+      set_entry(list.items[index], parts.back(), value);
   }
 
   void set_in_table(const std::string &table, const std::string &key, const Node &value) {

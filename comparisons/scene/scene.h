@@ -5,16 +5,20 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace comparisons::scene {
 
-/// One resolution: counts along the axes ("16x4"), one count (188), or a spacing in metres ("5 mm").
+/// One resolution: counts along the axes ("16x4"), one count (188), a spacing in metres ("5 mm"), or the mesh
+/// of one's own geometry ("mesh") and its refinements ("mesh/2", "mesh/4").
 struct Level {
   std::vector<int> counts;
   std::optional<double> spacing;
+  /// How often the geometry's mesh is refined: 0 for "mesh", 1 for "mesh/2".
+  std::optional<int> refinements = {};
   /// As printed in tables: "16x4", "188", "0.005 m".
   std::string text;
 
@@ -46,6 +50,8 @@ struct ProblemVariant {
   std::string label;
 };
 
+struct GeometryTables;
+
 struct Scene {
   std::string file;
   std::string title;
@@ -53,6 +59,10 @@ struct Scene {
   /// Name of the scene within its benchmark: the file's stem.
   std::string name;
   Parameters material;
+  /// The tables of a geometry of one's own (geometry_tables.h); null for a benchmark.
+  std::shared_ptr<const GeometryTables> geometry;
+  /// What the benchmark's `resolve` found in files, kept for the experiment; null if it has none.
+  std::shared_ptr<const void> resolved;
   std::vector<ProblemVariant> problems;
   /// Names of the effects called for, sorted.
   std::vector<std::string> effects;

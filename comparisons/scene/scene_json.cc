@@ -1,3 +1,4 @@
+#include "comparisons/scene/geometry_tables.h"
 #include "comparisons/scene/reader.h"
 
 namespace comparisons::scene {
@@ -22,6 +23,13 @@ nlohmann::ordered_json to_json(const std::vector<Level> &levels) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const std::vector<PlacedTable> &tables) {
+  auto json = nlohmann::ordered_json::array();
+  for (const PlacedTable &table : tables)
+    json.push_back(to_json(table.keys));
+  return json;
+}
+
 } // namespace
 
 nlohmann::ordered_json to_json(const Scene &scene) {
@@ -36,6 +44,16 @@ nlohmann::ordered_json to_json(const Scene &scene) {
   for (const ProblemVariant &variant : scene.problems)
     json["problem"].push_back({{"label", variant.label}, {"parameters", to_json(variant.parameters)}});
   json["material"] = to_json(scene.material);
+  if (scene.geometry != nullptr) {
+    const GeometryTables &tables = *scene.geometry;
+    json["geometry"] = to_json(tables.geometry.keys);
+    json["materials"] = to_json(tables.materials);
+    json["boundaries"] = to_json(tables.boundaries);
+    json["reference"] = to_json(tables.reference.keys);
+    json["quantities"] = to_json(tables.quantities);
+    if (tables.body_force)
+      json["body_force"] = to_json(tables.body_force->keys);
+  }
   json["effects"] = scene.effects;
   for (const auto &[effect, parameters] : scene.effect_parameters)
     if (!parameters.all().empty())

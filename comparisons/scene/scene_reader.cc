@@ -1,5 +1,6 @@
 #include "comparisons/scene/scene_reader.h"
 
+#include "comparisons/scene/geometry_tables.h"
 #include "comparisons/scene/overrides.h"
 #include "comparisons/scene/reader.h"
 
@@ -53,10 +54,18 @@ std::optional<Scene> SceneReader::read() {
   match_effects();
   expand();
   cross_check();
+  if (scene_.geometry != nullptr && benchmark_->resolve) {
+    scene_.file = file_;
+    benchmark_->resolve(scene_, diagnostics_);
+  }
   if (diagnostics_.has_errors())
     return std::nullopt;
   scene_.file = file_;
-  scene_.name = std::filesystem::path(file_).stem().string();
+  const std::filesystem::path path(file_);
+  scene_.name = path.stem().string();
+  // Every geometry of one's own is of the same 'benchmark': its folder tells them apart.
+  if (const auto folder = path.parent_path().filename().string(); has_geometry() && !folder.empty() && folder != ".")
+    scene_.name = scene_.name == "scene" ? folder : folder + "/" + scene_.name;
   scene_.benchmark = benchmark_->name;
   scene_.material = single(material_);
   scene_.time = single(time_);
@@ -73,7 +82,9 @@ const Node *SceneReader::table(std::string_view name) const {
 LevelForm SceneReader::level_form() const {
   if (benchmark_ == nullptr)
     return {};
-  return {.counts_per_level = benchmark_->counts_per_level, .benchmark = benchmark_->name};
+  return {.counts_per_level = benchmark_->counts_per_level,
+          .benchmark = benchmark_->name,
+          .meshes = benchmark_->own_geometry};
 }
 
 std::vector<KeyHome> SceneReader::key_homes() const {
@@ -86,8 +97,14 @@ std::vector<KeyHome> SceneReader::key_homes() const {
   };
   if (benchmark_ != nullptr) {
     add(benchmark_->problem, "[problem]");
-    add(benchmark_->material, "[material]");
+    add(benchmark_->material, benchmark_->own_geometry ? "[[material]]" : "[material]");
     add(benchmark_->time, "[time]");
+  }
+  if (has_geometry()) {
+    add(geometry_declarations(), "[geometry]");
+    add(boundary_declarations(), "[[boundary]]");
+    add(reference_declarations(), "[reference]");
+    add(quantity_declarations(), "[[quantity]]");
   }
   add(study_declarations(), "[study]");
   add(output_declarations(), "[output]");
@@ -109,8 +126,11 @@ std::vector<KeyHome> SceneReader::key_homes() const {
 }
 
 void SceneReader::read_top() {
-  const std::vector<std::string> tables{"problem", "material", "effects", "time", "method", "study", "output"};
-  const std::vector<std::string> reserved{"geometry", "boundary"};
+  std::vector<std::string> tables{"problem", "material", "effects", "time", "method", "study", "output"};
+  const std::vector<std::string> of_geometry{"geometry", "boundary", "reference", "quantity"};
+  const std::vector<std::string> &reserved = of_geometry;
+  if (has_geometry())
+    tables.insert(tables.end(), of_geometry.begin(), of_geometry.end());
   std::vector<std::string> known{"schema", "title", "benchmark"};
   known.insert(known.end(), tables.begin(), tables.end());
   const auto has = [](const auto &names, const auto &name) { return std::ranges::find(names, name) != names.end(); };
@@ -132,21 +152,20 @@ void SceneReader::read_top() {
   read_title();
 }
 
-/// Tables of scenes with a geometry of their own are not read yet; they deserve a better answer
-/// than 'unknown'.
+/// Tables that only a geometry of one's own has deserve a better answer than 'unknown' in other scenes.
 void SceneReader::read_reserved_tables() {
-  const std::string solved = fmt::format("this version solves the listed benchmarks only: {}",
-                                         fmt::join(names_of(vocabulary_.benchmarks), ", "));
+  const auto own = std::ranges::find(vocabulary_.benchmarks, true, &BenchmarkDescription::own_geometry);
   for (const Entry &entry : root_.entries) {
     const bool materials = entry.key == "material" && entry.value.is(Node::Kind::array);
+    if (has_geometry() && own != vocabulary_.benchmarks.end())
+      continue;
     if (materials)
+      diagnostics_.error(entry.key_location, entry.key, "several materials belong to a geometry of one's own",
+                         "write [material] and its keys below, or add [geometry] with file = \"...\"");
+    else if (entry.key == "geometry" || entry.key == "boundary" || entry.key == "reference" || entry.key == "quantity")
       diagnostics_.error(entry.key_location, entry.key,
-                         "several materials belong to a geometry of one's own; " + solved,
-                         "write [material] and its keys below");
-    else if (entry.key == "geometry" || entry.key == "boundary")
-      diagnostics_.error(entry.key_location, entry.key,
-                         fmt::format("the table '{}' belongs to a geometry of one's own; {}", entry.key, solved),
-                         "name one with benchmark = \"...\" and remove this table");
+                         fmt::format("the table '{}' belongs to a geometry of one's own", entry.key),
+                         "add [geometry] with file = \"...\", or remove this table");
   }
 }
 
@@ -180,9 +199,16 @@ void SceneReader::read_benchmark() {
   const auto names = names_of(vocabulary_.benchmarks);
   const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
   const Node *node = table("benchmark");
+  const auto own = std::ranges::find(vocabulary_.benchmarks, true, &BenchmarkDescription::own_geometry);
+  if (has_geometry() && own != vocabulary_.benchmarks.end()) {
+    benchmark_ = &*own;
+    if (node != nullptr && !(node->is(Node::Kind::text) && node->text == own->name))
+      diagnostics_.error(node->location, "benchmark", "a scene has a benchmark or a [geometry], not both",
+                         "remove one of them");
+    return;
+  }
   if (node == nullptr) {
-    // With a geometry the finding about that table says it all.
-    if (table("geometry") == nullptr)
+    if (!has_geometry()) // else read_reserved_tables says it
       diagnostics_.error(here(), "benchmark", "the required key 'benchmark' is missing; allowed: " + allowed);
     return;
   }
@@ -192,7 +218,10 @@ void SceneReader::read_benchmark() {
     return;
   }
   const auto found = std::ranges::find(vocabulary_.benchmarks, node->text, &BenchmarkDescription::name);
-  if (found != vocabulary_.benchmarks.end())
+  if (found != vocabulary_.benchmarks.end() && found->own_geometry)
+    diagnostics_.error(node->location, "benchmark", "the scene has no [geometry]",
+                       "add [geometry] with file = \"...\", a mesh or a drawing of Gmsh");
+  else if (found != vocabulary_.benchmarks.end())
     benchmark_ = &*found;
   else
     diagnostics_.error(node->location, "benchmark",
@@ -210,6 +239,8 @@ void SceneReader::read_problem_and_material() {
                          .lists_allowed = true,
                          .other_keys = {}},
                         homes_, here(), diagnostics_);
+  if (has_geometry())
+    return read_geometry();
   const Node *material = table("material");
   if (material != nullptr && material->is(Node::Kind::array))
     material = nullptr; // reported by read_reserved_tables

@@ -52,6 +52,10 @@ private:
   void read_formats(const Node *output);
   std::vector<KeyHome> key_homes() const;
 
+  // geometry_reader.cc
+  bool has_geometry() const;
+  void read_geometry();
+
   // effects_reader.cc
   void read_effects();
   void read_effect(const Entry &entry);

@@ -15,7 +15,7 @@ namespace {
 bool is_list(const Node &node, const Declaration &declaration) {
   if (!node.is(Node::Kind::array))
     return false;
-  return declaration.type != Type::point ||
+  return (declaration.type != Type::point && declaration.type != Type::expressions) ||
          std::ranges::any_of(node.items, [](const Node &n) { return n.is(Node::Kind::array); });
 }
 

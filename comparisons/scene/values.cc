@@ -1,3 +1,4 @@
+#include "comparisons/scene/expression.h"
 #include "comparisons/scene/table_reader.h"
 #include "comparisons/scene/units.h"
 
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace comparisons::scene {
@@ -48,6 +50,14 @@ public:
       return read_choice(node);
     case Type::point:
       return read_point(node);
+    case Type::expression:
+      if (is_word(node))
+        return Value(node.text);
+      if (auto value = read_expression(node))
+        return Value(std::move(*value));
+      return std::nullopt;
+    case Type::expressions:
+      return read_expressions(node);
     }
     return std::nullopt;
   }
@@ -186,6 +196,51 @@ private:
     const auto x = read_real(node.items[0]);
     const auto y = read_real(node.items[1]);
     return x && y ? std::optional(Value(Point{*x, *y})) : std::nullopt;
+  }
+
+  /// One of the words that may stand in place of an expression.
+  bool is_word(const Node &node) const {
+    return node.is(Node::Kind::text) &&
+           std::ranges::find(declaration_.choices, node.text) != declaration_.choices.end();
+  }
+
+  /// True for "2 MPaa": more likely a quantity with a slip than an expression.
+  static bool looks_like_quantity(const std::string &text) {
+    const auto end = text.find_first_not_of("+-0123456789.eE_ ");
+    return end != std::string::npos && end > 0 && text.find_first_of("0123456789") < end &&
+           text.find_first_of("*()xy") == std::string::npos;
+  }
+
+  /// The text in SI of a number, a quantity, or an expression that parses.
+  std::optional<std::string> read_expression(const Node &node) const {
+    if (!node.is(Node::Kind::text)) {
+      const auto value = read_real(node);
+      return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    }
+    const auto result = parse_quantity(node.text);
+    if (const auto *quantity = std::get_if<Quantity>(&result); quantity != nullptr && !quantity->has_unit)
+      return fmt::format("{}", quantity->value);
+    if (std::holds_alternative<Quantity>(result) || looks_like_quantity(node.text)) {
+      const auto value = read_quantity(node);
+      return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    }
+    try {
+      const Expression expression(node.text, 2);
+    } catch (const std::invalid_argument &error) {
+      fail(node, error.what(), "an expression is of x and y in SI, such as \"1e6*y*(1-y)\"; a constant has its unit");
+      return std::nullopt;
+    }
+    return node.text;
+  }
+
+  std::optional<Value> read_expressions(const Node &node) const {
+    if (is_word(node))
+      return Value(node.text);
+    if (!node.is(Node::Kind::array) || node.items.size() != 2)
+      return wrong_type(node, "a list of two components", "for example [\"0\", \"-2e6*y\"]");
+    const auto first = read_expression(node.items[0]);
+    const auto second = read_expression(node.items[1]);
+    return first && second ? std::optional(Value(*first + "; " + *second)) : std::nullopt;
   }
 
   const Declaration &declaration_;

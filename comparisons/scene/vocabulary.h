@@ -63,6 +63,11 @@ struct BenchmarkDescription {
   Check check;
   /// Methods of this benchmark alone; empty: those of the vocabulary.
   std::vector<MethodDescription> methods = {};
+  /// Reads the files that a scene names and checks what is in them, before any computing; the findings and what was
+  /// read (Scene::resolved) go to the scene. May be empty.
+  std::function<void(Scene &, Diagnostics &)> resolve = {};
+  /// The problem is the user's own, in [geometry] and the tables with it.
+  bool own_geometry = false;
   /// 1: levels are one count; 2: "16x4"; a spacing is allowed for both.
   int counts_per_level = 2;
   /// Keys of [time] (scene/time_keys.h); empty: the benchmark knows no time.

@@ -31,6 +31,9 @@ public:
   virtual void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
                    const std::filesystem::path &series_directory, reports::Cell &cell) const = 0;
 
+  /// Called once before the cells are run, for what all of them share and is dear, such as a reference solution.
+  virtual void prepare() const {}
+
   /// Also makes the points of the level.
   /// @throws std::exception if the level does not fit
   virtual Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const = 0;

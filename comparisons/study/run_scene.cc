@@ -49,6 +49,7 @@ public:
 
   std::vector<reports::Cell> run() {
     metrics::use_threads(static_cast<int>(scene_.study.integer("threads")));
+    prepare();
     const auto repeats = static_cast<int>(scene_.study.integer("repeats"));
     std::size_t n_finished = 0;
     for (auto &measured : measured_) {
@@ -72,6 +73,15 @@ public:
   }
 
 private:
+  void prepare() const {
+    for (const auto &experiment : experiments_)
+      try {
+        experiment->prepare();
+      } catch (const std::exception &) {
+        // Each cell asks again, and its reason tells.
+      }
+  }
+
   bool stopped() const { return options_.stop_requested && options_.stop_requested(); }
 
   void report_progress(const Measured &measured, std::size_t n_finished) const {
@@ -107,12 +117,12 @@ private:
   }
 
   /// Why a cell is hopeless on this machine; empty if it is not. The estimate may be too high by a factor of
-  /// about 2.5, so only what exceeds that is refused beforehand.
+  /// about 2, so only what exceeds that is refused beforehand.
   static std::string too_large(const CellTask &task) {
     const double memory = static_cast<double>(metrics::describe_machine(1).memory_bytes);
     try {
       const double bytes = task.experiment->estimate(*task.request, *task.level).bytes;
-      if (memory > 0 && bytes > 2.5 * memory)
+      if (memory > 0 && bytes > 2 * memory)
         return fmt::format("would need about {:.0f} GB, more than this machine has ({:.0f} GB); choose a coarser level",
                            bytes / 1e9, memory / 1e9);
     } catch (const std::exception &) {

@@ -11,7 +11,7 @@ const Material steel(210e9, .3, PlaneModel::plane_strain);
 TEST(FemConditions, mixed_by_component) {
   const auto exact = linear_field(steel);
   for (int combination = 0; combination < 64; ++combination) {
-    PlaneProblem problem{jittered({0, 0}, {1, .7}, 5, 4), steel, {{0, condition(exact, fixed, fixed)}}};
+    PlaneProblem problem{jittered({0, 0}, {1, .7}, 5, 4), {steel}, {{0, condition(exact, fixed, fixed)}}};
     for (int id = 1; id < 4; ++id) {
       const int bits = combination >> (2 * (id - 1));
       problem.boundary.emplace(id,
@@ -36,7 +36,7 @@ TEST(FemConditions, rollers_and_default_conditions) {
                          return Stress{pull, 0, 0};
                        }};
   const PlaneProblem problem{mesh::rectangle({0, 0}, {2, 1}, 5, 4),
-                             material,
+                             {material},
                              {{0, {{fixed, loaded}, zero, {}}},
                               {1, {{loaded, loaded}, {}, traction_of(exact.stress)}},
                               {2, {{loaded, fixed}, zero, {}}},
@@ -49,7 +49,7 @@ TEST(FemConditions, rollers_and_default_conditions) {
 TEST(FemConditions, nothing_prescribed_but_zero_gives_exactly_zero) {
   const auto zero = batch([](Point) { return Vector{0, 0}; });
   const PlaneProblem problem{
-      mesh::rectangle({0, 0}, {2, 1}, 5, 4), steel, {{0, {{fixed, fixed}, zero, {}}}, {1, {}}, {2, {}}, {3, {}}}};
+      mesh::rectangle({0, 0}, {2, 1}, 5, 4), {steel}, {{0, {{fixed, fixed}, zero, {}}}, {1, {}}, {2, {}}, {3, {}}}};
   const auto solution = solve(problem);
   const Point x = {1.9, .4};
   Vector u = {1, 1};
@@ -60,7 +60,7 @@ TEST(FemConditions, nothing_prescribed_but_zero_gives_exactly_zero) {
 }
 
 TEST(FemConditions, lowest_id_wins_at_a_contradicted_corner) {
-  PlaneProblem problem{mesh::rectangle({0, 0}, {1, 1}, 4, 4), steel, {}};
+  PlaneProblem problem{mesh::rectangle({0, 0}, {1, 1}, 4, 4), {steel}, {}};
   for (int id = 0; id < 4; ++id)
     problem.boundary.emplace(id, BoundaryCondition{});
   problem.boundary[0] = {{fixed, fixed}, batch([](Point) { return Vector{1, 2}; }), {}};
@@ -92,7 +92,7 @@ TEST(FemConditions, pressure_along_outward_normals) {
                        [=](Point) {
                          return Stress{-pressure, -pressure, 0};
                        }};
-  PlaneProblem problem{mesh, steel, {{0, condition(exact, fixed, fixed)}}};
+  PlaneProblem problem{mesh, {steel}, {{0, condition(exact, fixed, fixed)}}};
   for (int id = 1; id < 4; ++id)
     problem.boundary.emplace(id, BoundaryCondition{{loaded, loaded}, {}, press});
   for (const int degree : {1, 2, 3, 4})
@@ -105,9 +105,9 @@ TEST(FemConditions, cells_rotated_at_random) {
   const auto exact = plate.exact();
   auto problem = left_fixed(jittered({0, 0}, {1, .2}, 11, 4), plate.material, exact);
   for (std::size_t c = 0; c < problem.mesh.cells.size(); ++c)
-    std::rotate(problem.mesh.cells[c].begin(),
-                problem.mesh.cells[c].begin() + static_cast<std::ptrdiff_t>((7 * c + c / 3) % 4),
-                problem.mesh.cells[c].end());
+    std::rotate(problem.mesh.cells[c].vertices.begin(),
+                problem.mesh.cells[c].vertices.begin() + static_cast<std::ptrdiff_t>((7 * c + c / 3) % 4),
+                problem.mesh.cells[c].vertices.end());
   for (const int degree : {3, 4})
     EXPECT_LT(errors(solve(problem, {degree, LinearSolver::cholesky}), exact, {0, 0}, {1, .2}).displacement, 1e-12);
 }

@@ -49,9 +49,11 @@ TEST(FemRefusals, mesh_vertices) {
 }
 
 TEST(FemRefusals, mesh_cells) {
-  EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.cells[3][2] = 99; }), "cell 3 refers to vertex 99");
-  EXPECT_CONTAINS(refusal([](auto &p) { std::swap(p.mesh.cells[4][1], p.mesh.cells[4][3]); }), "cell 4 is inverted");
-  EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.cells[4][1] = p.mesh.cells[4][0]; }), "cell 4 is inverted, degenerate");
+  EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.cells[3].vertices[2] = 99; }), "cell 3 refers to vertex 99");
+  EXPECT_CONTAINS(refusal([](auto &p) { std::swap(p.mesh.cells[4].vertices[1], p.mesh.cells[4].vertices[3]); }),
+                  "cell 4 is inverted");
+  EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.cells[4].vertices[1] = p.mesh.cells[4].vertices[0]; }),
+                  "cell 4 is inverted, degenerate");
   EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.vertices[5] = {.9, .9}; }), "cell ");
   EXPECT_CONTAINS(refusal([](auto &p) { p.mesh.cells.push_back(p.mesh.cells[0]); }), "cells 0 and 9");
   auto vertices = mesh::rectangle({0, 0}, {1, 1}, 4, 4).vertices;
@@ -120,9 +122,9 @@ PlaneProblem two_cells(bool share_a_vertex) {
     mesh.vertices.insert(mesh.vertices.end(), {{2, 1}, {2, 2}, {1, 2}});
   else
     mesh.vertices.insert(mesh.vertices.end(), {{5, 1}, {6, 1}, {6, 2}, {5, 2}});
-  mesh.cells.push_back(share_a_vertex ? std::array{3U, 4U, 5U, 6U} : std::array{4U, 5U, 6U, 7U});
+  mesh.cells.push_back({share_a_vertex ? std::array{3U, 4U, 5U, 6U} : std::array{4U, 5U, 6U, 7U}});
   for (unsigned k = 0; k < 4; ++k)
-    mesh.boundary.push_back({{mesh.cells[1][k], mesh.cells[1][(k + 1) % 4]}, 1});
+    mesh.boundary.push_back({{mesh.cells[1].vertices[k], mesh.cells[1].vertices[(k + 1) % 4]}, 1});
   return problem;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/elasticity/plane_elasticity.h"
+#include "fem_reference/mesh/formulas.h"
 
 #include <cmath>
 #include <string>
@@ -46,8 +47,8 @@ constexpr auto fixed = ConditionKind::displacement;
 constexpr auto loaded = ConditionKind::traction;
 
 /// Displacement on the left edge (id 0), tractions on the three others.
-inline PlaneProblem left_fixed(QuadrilateralMesh mesh, const Material &material, const Exact &exact) {
-  PlaneProblem problem{std::move(mesh), material, {{0, condition(exact, fixed, fixed)}}};
+inline PlaneProblem left_fixed(PlaneMesh mesh, const Material &material, const Exact &exact) {
+  PlaneProblem problem{std::move(mesh), {material}, {{0, condition(exact, fixed, fixed)}}};
   for (int id = 1; id < 4; ++id)
     problem.boundary.emplace(id, condition(exact, loaded, loaded));
   if (exact.body_force)
@@ -56,8 +57,7 @@ inline PlaneProblem left_fixed(QuadrilateralMesh mesh, const Material &material,
 }
 
 /// A grid whose interior vertices are moved by up to `amount` of the spacing in a fixed pattern.
-inline QuadrilateralMesh jittered(Point lower, Point upper, unsigned vertices_x, unsigned vertices_y,
-                                  double amount = .25) {
+inline PlaneMesh jittered(Point lower, Point upper, unsigned vertices_x, unsigned vertices_y, double amount = .25) {
   auto vertices = mesh::rectangle(lower, upper, vertices_x, vertices_y).vertices;
   const double hx = (upper[0] - lower[0]) / (vertices_x - 1);
   const double hy = (upper[1] - lower[1]) / (vertices_y - 1);

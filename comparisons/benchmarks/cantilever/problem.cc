@@ -74,7 +74,7 @@ public:
     return {bottom, top};
   }
 
-  std::optional<LargestError> largest_error() const override { return LargestError{"u2_max_relative", 1, "bottom"}; }
+  std::vector<ComponentError> component_errors() const override { return {{"u2_max_relative", 1, "bottom"}}; }
 
 private:
   problems::RectangleGrid grid(const scene::Level &level) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "comparisons/benchmarks/function_approximation/expression.h"
+#include "comparisons/scene/expression.h"
 
 #include <array>
 #include <map>
@@ -9,6 +9,8 @@
 #include <vector>
 
 namespace comparisons::benchmarks::function_approximation {
+
+using scene::Expression;
 
 /// Function, gradient and second derivatives (k <= l) at points.
 template <int dim>

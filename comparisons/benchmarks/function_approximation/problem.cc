@@ -2,7 +2,7 @@
 
 #include "comparisons/benchmarks/function_approximation/arrangement.h"
 #include "comparisons/benchmarks/function_approximation/estimate.h"
-#include "comparisons/benchmarks/function_approximation/expression.h"
+#include "comparisons/scene/expression.h"
 #include "comparisons/metrics/memory.h"
 #include "comparisons/metrics/slopes.h"
 #include "comparisons/reports/files.h"

@@ -1,23 +1,21 @@
 #include "discretisation.h"
 
+#include "../mesh/topology.h"
 #include "../stopwatch.h"
 
 #include <algorithm>
-#include <array>
-#include <stdexcept>
-
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_tools.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
+#include <limits>
 
 namespace fem_reference::elasticity {
 namespace {
+using mesh::Curve;
+using mesh::Point;
+using mesh::Topology;
+
 /// Centre of the bounding box, and its longer side.
-void set_origin(const mesh::QuadrilateralMesh &mesh, Discretisation &discretisation) {
-  mesh::Point lower = mesh.vertices.front();
-  mesh::Point upper = lower;
+void set_origin(const mesh::PlaneMesh &mesh, Discretisation &discretisation) {
+  Point lower = mesh.vertices.front();
+  Point upper = lower;
   for (const auto &vertex : mesh.vertices)
     for (std::size_t d = 0; d < 2; ++d) {
       lower[d] = std::min(lower[d], vertex[d]);
@@ -28,82 +26,119 @@ void set_origin(const mesh::QuadrilateralMesh &mesh, Discretisation &discretisat
   discretisation.extent = std::max(upper[0] - lower[0], upper[1] - lower[1]);
 }
 
-void create_triangulation(const mesh::QuadrilateralMesh &mesh, mesh::Point origin,
-                          dealii::Triangulation<2> &triangulation) {
-  std::vector<dealii::Point<2>> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const auto &vertex : mesh.vertices)
-    vertices.emplace_back(vertex[0] - origin[0], vertex[1] - origin[1]);
-  std::vector<dealii::CellData<2>> cells(mesh.cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto &v = mesh.cells[c];
-    cells[c].vertices = {v[0], v[1], v[3], v[2]}; // deal.II counts lexicographically
+/// Numbers the nodes as the cells meet them and places them on the geometry.
+class Numbering {
+public:
+  Numbering(const mesh::PlaneMesh &mesh, const Topology &topology, Discretisation &discretisation)
+      : mesh_(mesh), topology_(topology), result_(discretisation), node_of_vertex_(mesh.vertices.size(), unknown),
+        first_node_of_edge_(topology.edges.size(), unknown) {
+    if (result_.degree() > 1) // else edges have no nodes to be placed
+      for (const auto &curve : topology.curves)
+        curves_.push_back(curve.relative_to(result_.origin));
   }
-  // Nodes inside an edge need one direction for both of its cells.
-  dealii::GridTools::consistently_order_cells(cells);
-  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
-}
 
-/// The side of the (perhaps rotated) deal.II cell between two vertices of the mesh.
-template <typename Cell>
-unsigned side_between(const Cell &cell, std::array<unsigned, 2> vertices) {
-  static constexpr std::array<std::array<unsigned, 2>, 4> ends = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-  for (unsigned side = 0; side < 4; ++side) {
-    const unsigned a = cell->vertex_index(ends[side][0]);
-    const unsigned b = cell->vertex_index(ends[side][1]);
-    if ((a == vertices[0] && b == vertices[1]) || (a == vertices[1] && b == vertices[0]))
-      return side;
+  void run() {
+    result_.cell_start.push_back(0);
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      add_cell(c);
   }
-  throw std::logic_error("fem_reference: a checked boundary edge is not a side of its cell");
-}
 
-void number_nodes(const dealii::Triangulation<2> &triangulation, Discretisation &discretisation) {
-  const auto degree = static_cast<unsigned>(discretisation.degree);
-  const dealii::FE_Q<2> fe(degree);
-  // One scalar handler serves both components: unknown = 2 node + component.
-  dealii::DoFHandler<2> handler(triangulation);
-  handler.distribute_dofs(fe);
-  const auto hierarchic = dealii::FETools::lexicographic_to_hierarchic_numbering<2>(degree);
+private:
+  static constexpr unsigned unknown = std::numeric_limits<unsigned>::max();
 
-  discretisation.nodes_per_cell = fe.n_dofs_per_cell();
-  discretisation.cell_nodes.resize(discretisation.n_cells * fe.n_dofs_per_cell());
-  discretisation.positions.resize(handler.n_dofs());
-  std::vector<dealii::types::global_dof_index> indices(fe.n_dofs_per_cell());
-  std::vector<dealii::Point<2>> unit_points;
-  for (const unsigned k : hierarchic)
-    unit_points.push_back(fe.unit_support_point(k));
-  for (const auto &cell : handler.active_cell_iterators()) {
-    cell->get_dof_indices(indices);
-    unsigned *nodes = discretisation.cell_nodes.data() + std::size_t{cell->active_cell_index()} * indices.size();
-    for (std::size_t a = 0; a < indices.size(); ++a) {
-      nodes[a] = static_cast<unsigned>(indices[hierarchic[a]]);
-      const auto x = unit_points[a][0];
-      const auto y = unit_points[a][1];
-      // Sides are straight: the mapping of any degree is the bilinear one.
-      auto position = (1 - x) * ((1 - y) * cell->vertex(0) + y * cell->vertex(2)) +
-                      x * ((1 - y) * cell->vertex(1) + y * cell->vertex(3));
-      discretisation.positions[nodes[a]] = {position[0], position[1]};
+  unsigned add_node(Point position) {
+    result_.positions.push_back(position);
+    return static_cast<unsigned>(result_.positions.size() - 1);
+  }
+
+  Point shifted(unsigned vertex) const {
+    return {mesh_.vertices[vertex][0] - result_.origin[0], mesh_.vertices[vertex][1] - result_.origin[1]};
+  }
+
+  const Curve *curve_of(const Topology::Edge &edge) const {
+    return edge.curve == Topology::straight || curves_.empty() ? nullptr
+                                                               : &curves_[static_cast<std::size_t>(edge.curve)];
+  }
+
+  /// The nodes inside an edge run from its lower to its upper vertex.
+  unsigned first_node_of(unsigned e) {
+    auto &first = first_node_of_edge_[e];
+    if (first != unknown)
+      return first;
+    first = static_cast<unsigned>(result_.positions.size());
+    const auto &edge = topology_.edges[e];
+    const auto *curve = curve_of(edge);
+    const Point a = shifted(edge.lower);
+    const Point b = shifted(edge.upper);
+    const auto &line = result_.elements[0].line();
+    for (int k = 1; k < line.degree(); ++k) {
+      const double t = line.node(k);
+      add_node(curve != nullptr ? curve->at(t) : Point{(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]});
     }
+    return first;
   }
-}
+
+  void add_cell(std::size_t c) {
+    const auto &cell = mesh_.cells[c];
+    const auto corners = cell.corners();
+    const auto &element = result_.elements[cell.n_vertices - 3];
+    const auto p = static_cast<unsigned>(element.degree());
+    result_.n_vertices.push_back(static_cast<unsigned char>(cell.n_vertices));
+    result_.regions.push_back(cell.region);
+    const std::size_t start = result_.cell_nodes.size();
+    result_.cell_nodes.resize(start + element.n_nodes());
+    result_.cell_start.push_back(static_cast<unsigned>(result_.cell_nodes.size()));
+    unsigned *nodes = result_.cell_nodes.data() + start;
+
+    std::array<Point, 4> positions;
+    for (unsigned k = 0; k < corners.size(); ++k) {
+      positions[k] = shifted(corners[k]);
+      auto &node = node_of_vertex_[corners[k]];
+      if (node == unknown)
+        node = add_node(positions[k]);
+      nodes[element.corner(k)] = node;
+    }
+    std::array<Curve, 4> curves;
+    std::array<const Curve *, 4> sides{};
+    bool curved = false;
+    for (unsigned k = 0; k < corners.size(); ++k) {
+      const unsigned e = topology_.edge_of_side[4 * c + k];
+      const auto &edge = topology_.edges[e];
+      const bool forward = edge.lower == corners[k];
+      const unsigned first = first_node_of(e);
+      for (unsigned l = 1; l < p; ++l)
+        nodes[element.side(k)[l]] = first + (forward ? l - 1 : p - 1 - l);
+      if (const auto *curve = curve_of(edge); curve != nullptr) {
+        curves[k] = forward ? *curve : curve->reversed();
+        sides[k] = &curves[k];
+        curved = true;
+      }
+    }
+    result_.curved.push_back(curved ? 1 : 0);
+    const std::span<const Point> corner_positions(positions.data(), corners.size());
+    for (const unsigned a : element.inside())
+      nodes[a] = add_node(mesh::blend(corner_positions, sides, element.nodes()[a]));
+  }
+
+  const mesh::PlaneMesh &mesh_;
+  const Topology &topology_;
+  Discretisation &result_;
+  std::vector<Curve> curves_; // relative to the origin
+  std::vector<unsigned> node_of_vertex_;
+  std::vector<unsigned> first_node_of_edge_;
+};
 } // namespace
 
-Discretisation discretise(const mesh::QuadrilateralMesh &mesh, int degree, double &seconds_mesh,
-                          double &seconds_numbering) {
+Discretisation discretise(const mesh::PlaneMesh &mesh, int degree, double &seconds_mesh, double &seconds_numbering) {
   Stopwatch stopwatch;
-  const auto sides = mesh::check(mesh);
-  Discretisation discretisation;
-  discretisation.degree = degree;
+  const auto topology = mesh::checked_topology(mesh);
+  seconds_mesh = stopwatch.lap();
+  Discretisation discretisation(degree);
   discretisation.n_cells = mesh.cells.size();
   set_origin(mesh, discretisation);
-  dealii::Triangulation<2> triangulation;
-  create_triangulation(mesh, discretisation.origin, triangulation);
-  std::vector<dealii::Triangulation<2>::cell_iterator> cells(triangulation.begin(), triangulation.end());
-  for (std::size_t e = 0; e < sides.size(); ++e)
-    discretisation.edges.push_back(
-        {sides[e].cell, side_between(cells[sides[e].cell], mesh.boundary[e].vertices), mesh.boundary[e].id});
-  seconds_mesh = stopwatch.lap();
-  number_nodes(triangulation, discretisation);
+  Numbering(mesh, topology, discretisation).run();
+  for (std::size_t e = 0; e < mesh.boundary.size(); ++e)
+    discretisation.edges.push_back({topology.boundary[e].cell, topology.boundary[e].side, mesh.boundary[e].id});
   seconds_numbering = stopwatch.lap();
   return discretisation;
 }

@@ -1,49 +1,46 @@
 #pragma once
 
-#include "fem_reference/mesh/quadrilateral_mesh.h"
+#include "fem_reference/mesh/plane_mesh.h"
+#include "reference_element.h"
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace fem_reference::elasticity {
-/// Nodes of a continuous Qp space on a mesh, as plain arrays. Positions are relative to `origin`.
+/// Nodes of a continuous space of elements Qp and Pp on a mesh, as plain arrays. Positions are relative to `origin`.
 struct Discretisation {
-  /// A side of a cell on the boundary: 0 left, 1 right (xi_1 = 0, 1), 2 bottom, 3 top (xi_2 = 0, 1).
+  /// A side of a cell on the boundary; see ReferenceElement::side.
   struct Edge {
     unsigned cell;
     unsigned side;
     int id;
   };
 
-  int degree = 0;
+  explicit Discretisation(int degree) : elements{ReferenceElement(3, degree), ReferenceElement(4, degree)} {}
+
   std::size_t n_cells = 0;
-  unsigned nodes_per_cell = 0;
   mesh::Point origin{};
-  double extent = 0; ///< longer side of the bounding box
-  /// nodes_per_cell nodes a cell, lexicographic (xi_1 fastest), with positive Jacobian.
+  double extent = 0;                        ///< longer side of the bounding box
+  std::array<ReferenceElement, 2> elements; ///< triangle, quadrilateral
+  /// Nodes of cell c, in the order of its element and with positive Jacobian: cell_nodes[cell_start[c]] ...
+  std::vector<unsigned> cell_start;
   std::vector<unsigned> cell_nodes;
+  std::vector<unsigned char> n_vertices; ///< of each cell
+  std::vector<unsigned char> curved;     ///< of each cell: whether it has a curved side
+  std::vector<int> regions;              ///< of each cell
   std::vector<mesh::Point> positions;
   std::vector<Edge> edges;
 
+  int degree() const { return elements[0].degree(); }
   std::size_t n_nodes() const { return positions.size(); }
+  const ReferenceElement &element_of(std::size_t cell) const { return elements[n_vertices[cell] - 3U]; }
   std::span<const unsigned> nodes_of(std::size_t cell) const {
-    return {cell_nodes.data() + cell * nodes_per_cell, nodes_per_cell};
+    return {cell_nodes.data() + cell_start[cell], cell_start[cell + 1] - cell_start[cell]};
   }
-  /// Local number of node k = 0 ... degree of a side, in the direction of growing xi.
-  unsigned node_of_side(unsigned side, unsigned k) const {
-    const auto p = static_cast<unsigned>(degree);
-    const unsigned n = p + 1;
-    switch (side) {
-    case 0:
-      return k * n;
-    case 1:
-      return k * n + p;
-    case 2:
-      return k;
-    default:
-      return p * n + k;
-    }
+  /// Node k of a side of a cell, counter-clockwise.
+  unsigned node_of_side(const Edge &edge, unsigned k) const {
+    return cell_nodes[cell_start[edge.cell] + element_of(edge.cell).side(edge.side)[k]];
   }
   /// The node's position in the caller's coordinates.
   mesh::Point original_position(std::size_t node) const {
@@ -51,8 +48,7 @@ struct Discretisation {
   }
 };
 
-/// A checked mesh as a deal.II triangulation with numbered Qp nodes. The seconds spent on mesh and
+/// Checks a mesh and numbers its nodes, in the order of the cells. The seconds spent on checks and
 /// numbering are written to the two last arguments.
-Discretisation discretise(const mesh::QuadrilateralMesh &mesh, int degree, double &seconds_mesh,
-                          double &seconds_numbering);
+Discretisation discretise(const mesh::PlaneMesh &mesh, int degree, double &seconds_mesh, double &seconds_numbering);
 } // namespace fem_reference::elasticity

@@ -15,8 +15,8 @@ std::vector<unsigned> nodes_of_id(const Discretisation &discretisation, int id) 
   std::vector<unsigned> nodes;
   for (const auto &edge : discretisation.edges)
     if (edge.id == id)
-      for (unsigned k = 0; k <= static_cast<unsigned>(discretisation.degree); ++k)
-        nodes.push_back(discretisation.nodes_of(edge.cell)[discretisation.node_of_side(edge.side, k)]);
+      for (unsigned k = 0; k <= static_cast<unsigned>(discretisation.degree()); ++k)
+        nodes.push_back(discretisation.node_of_side(edge, k));
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
@@ -46,6 +46,7 @@ void prescribe(int id, const BoundaryCondition &condition, const Discretisation 
       if (data.prescribed[unknown] == 0) {
         data.prescribed[unknown] = 1;
         data.values[unknown] = value;
+        data.ids[unknown] = id;
       } else if (std::abs(value - data.values[unknown]) > 1e-10 * largest) // more than rounding
         ++data.contradicted;
     }
@@ -127,6 +128,7 @@ void check_rigid_motions(const EssentialData &data, const Discretisation &discre
             : fmt::format(" in the part of the mesh that holds the point ({}, {})", position[0], position[1])));
   }
 }
+const char *name_of(PlaneModel model) { return model == PlaneModel::plane_stress ? "plane stress" : "plane strain"; }
 } // namespace
 
 void check_conditions(const PlaneProblem &problem) {
@@ -150,10 +152,28 @@ void check_conditions(const PlaneProblem &problem) {
   }
 }
 
+void check_materials(const PlaneProblem &problem) {
+  const auto &materials = problem.materials;
+  if (materials.empty())
+    throw InvalidInput("there is no material; give one for each region of the mesh");
+  for (std::size_t m = 1; m < materials.size(); ++m)
+    if (materials[m].model() != materials[0].model())
+      throw InvalidInput(fmt::format("the material of region {} is in {} and that of region 0 in {}; a plane problem "
+                                     "has one model",
+                                     m, name_of(materials[m].model()), name_of(materials[0].model())));
+  const auto &cells = problem.mesh.cells;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (cells[c].region < 0 || static_cast<std::size_t>(cells[c].region) >= materials.size())
+      throw InvalidInput(fmt::format("mesh: cell {} is of region {}, but there are materials for {} region{} only, "
+                                     "counted from 0",
+                                     c, cells[c].region, materials.size(), materials.size() == 1 ? "" : "s"));
+}
+
 EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation) {
   EssentialData data;
   data.prescribed.assign(2 * discretisation.n_nodes(), 0);
   data.values.assign(2 * discretisation.n_nodes(), 0.);
+  data.ids.assign(2 * discretisation.n_nodes(), -1);
   for (const auto &[id, condition] : problem.boundary) // ascending: the lowest id comes first
     if (condition.kind[0] == ConditionKind::displacement || condition.kind[1] == ConditionKind::displacement)
       prescribe(id, condition, discretisation, data);

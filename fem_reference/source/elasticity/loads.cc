@@ -1,8 +1,8 @@
 #include "boundary_conditions.h"
-#include "reference_element.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace {
 /// Cells handed to a callback at once: enough to amortise the call, few enough for the cache.
 constexpr std::size_t cells_per_batch = 128;
 
-void check_finite(const Vector &value, const Point &point, const std::string &what) {
+void check_finite(const Vector &value, const Point &point, std::string_view what) {
   if (!std::isfinite(value[0]) || !std::isfinite(value[1]))
     throw InvalidInput(fmt::format("{} at ({}, {}) is ({}, {})", what, point[0], point[1], value[0], value[1]));
 }
@@ -38,19 +38,25 @@ MappedPoint map_point(const ShapeTable &table, int q, std::span<const unsigned> 
   return {x, table.weights[q] * (d1[0] * d2[1] - d1[1] * d2[0])};
 }
 
-void add_body_force(const VectorField &body_force, const Discretisation &discretisation, std::vector<double> &load) {
-  const ShapeTable table(discretisation.degree, discretisation.degree + 2);
+/// The body force on the cells of one shape.
+void add_body_force(const VectorField &body_force, const ReferenceElement &element,
+                    const Discretisation &discretisation, Loads &loads) {
+  std::vector<std::size_t> cells;
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
+    if (discretisation.n_vertices[c] == element.n_vertices())
+      cells.push_back(c);
+  const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n_points = static_cast<std::size_t>(table.n_points);
   std::vector<Point> points;
   std::vector<double> jxw;
   std::vector<Vector> values;
-  for (std::size_t first = 0; first < discretisation.n_cells; first += cells_per_batch) {
-    const std::size_t last = std::min(first + cells_per_batch, discretisation.n_cells);
+  for (std::size_t first = 0; first < cells.size(); first += cells_per_batch) {
+    const std::size_t last = std::min(first + cells_per_batch, cells.size());
     points.clear();
     jxw.clear();
     for (std::size_t c = first; c < last; ++c)
       for (int q = 0; q < table.n_points; ++q) {
-        const auto mapped = map_point(table, q, discretisation.nodes_of(c), discretisation.positions);
+        const auto mapped = map_point(table, q, discretisation.nodes_of(cells[c]), discretisation.positions);
         points.push_back(
             {discretisation.origin[0] + mapped.position[0], discretisation.origin[1] + mapped.position[1]});
         jxw.push_back(mapped.jxw);
@@ -59,76 +65,99 @@ void add_body_force(const VectorField &body_force, const Discretisation &discret
     body_force(points, values);
     for (std::size_t k = 0; k < points.size(); ++k) {
       check_finite(values[k], points[k], "the body force");
-      const auto nodes = discretisation.nodes_of(first + k / n_points);
+      const auto nodes = discretisation.nodes_of(cells[first + k / n_points]);
       const double *shape = table.values.data() + (k % n_points) * nodes.size();
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (std::size_t d = 0; d < 2; ++d)
-          load[2 * std::size_t{nodes[a]} + d] += shape[a] * jxw[k] * values[k][d];
+      for (std::size_t d = 0; d < 2; ++d) {
+        const double force = jxw[k] * values[k][d];
+        loads.body_force[d] += force;
+        loads.magnitude += std::abs(force);
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          loads.nodal[2 * std::size_t{nodes[a]} + d] += shape[a] * force;
+      }
     }
   }
 }
 
-/// The traction of one boundary id, in one batch.
-void add_traction(int id, const BoundaryCondition &condition, const Discretisation &discretisation,
-                  std::vector<double> &load) {
-  const LagrangeBasis basis(discretisation.degree);
-  const auto quadrature = gauss_quadrature(discretisation.degree + 2);
-  const auto n_points = quadrature.points.size();
-  const auto n_nodes = static_cast<std::size_t>(discretisation.degree) + 1;
-  std::vector<LagrangeBasis::Values> shape(n_points);
-  std::vector<LagrangeBasis::Values> derivative(n_points);
-  for (std::size_t q = 0; q < n_points; ++q)
-    basis.evaluate(quadrature.points[q], shape[q], derivative[q]);
-
-  std::vector<unsigned> nodes; // n_nodes an edge
+/// Quadrature points on the edges of one boundary id, with what is needed to integrate over them.
+struct EdgePoints {
+  std::vector<unsigned> nodes; ///< degree + 1 an edge
   std::vector<Point> points;
-  std::vector<Vector> normals;
+  std::vector<Vector> normals; ///< outward, of the isoparametric edge
   std::vector<double> jxw;
+};
+
+/// Sides run counter-clockwise, so that the outside lies on their right.
+EdgePoints edge_points(int id, const Discretisation &discretisation, const Quadrature1d &quadrature,
+                       std::span<const LagrangeBasis::Values> shape,
+                       std::span<const LagrangeBasis::Values> derivative) {
+  const auto n_nodes = static_cast<std::size_t>(discretisation.degree()) + 1;
+  EdgePoints result;
   for (const auto &edge : discretisation.edges) {
     if (edge.id != id)
       continue;
-    const std::size_t first = nodes.size();
+    const std::size_t first = result.nodes.size();
     for (unsigned k = 0; k < n_nodes; ++k)
-      nodes.push_back(discretisation.nodes_of(edge.cell)[discretisation.node_of_side(edge.side, k)]);
-    // Right and bottom have the cell on the left of the direction of growing xi.
-    const double sign = edge.side == 1 || edge.side == 2 ? 1 : -1;
-    for (std::size_t q = 0; q < n_points; ++q) {
+      result.nodes.push_back(discretisation.node_of_side(edge, k));
+    for (std::size_t q = 0; q < quadrature.points.size(); ++q) {
       Point x = discretisation.origin;
       Vector tangent{};
       for (std::size_t k = 0; k < n_nodes; ++k)
         for (std::size_t d = 0; d < 2; ++d) {
-          x[d] += shape[q][k] * discretisation.positions[nodes[first + k]][d];
-          tangent[d] += derivative[q][k] * discretisation.positions[nodes[first + k]][d];
+          const double coordinate = discretisation.positions[result.nodes[first + k]][d];
+          x[d] += shape[q][k] * coordinate;
+          tangent[d] += derivative[q][k] * coordinate;
         }
       const double length = std::hypot(tangent[0], tangent[1]);
-      points.push_back(x);
-      normals.push_back({sign * tangent[1] / length, -sign * tangent[0] / length});
-      jxw.push_back(quadrature.weights[q] * length);
+      result.points.push_back(x);
+      result.normals.push_back({tangent[1] / length, -tangent[0] / length});
+      result.jxw.push_back(quadrature.weights[q] * length);
     }
   }
+  return result;
+}
+
+/// The traction of one boundary id, in one batch.
+void add_traction(int id, const BoundaryCondition &condition, const Discretisation &discretisation, Loads &loads) {
+  const auto &basis = discretisation.elements[0].line();
+  const auto quadrature = gauss_quadrature(discretisation.degree() + 2);
+  const auto n_points = quadrature.points.size();
+  const auto n_nodes = static_cast<std::size_t>(discretisation.degree()) + 1;
+  std::vector<LagrangeBasis::Values> shape(n_points);
+  std::vector<LagrangeBasis::Values> derivative(n_points);
+  for (std::size_t q = 0; q < n_points; ++q)
+    basis.evaluate(quadrature.points[q], shape[q], derivative[q]);
+  const auto [nodes, points, normals, jxw] = edge_points(id, discretisation, quadrature, shape, derivative);
 
   std::vector<Vector> values(points.size(), Vector{});
   condition.traction(points, normals, values);
+  auto &resultant = loads.tractions[id];
+  const auto what = fmt::format("boundary id {}: the traction", id);
   for (std::size_t k = 0; k < points.size(); ++k) {
     for (std::size_t d = 0; d < 2; ++d)
       if (condition.kind[d] != ConditionKind::traction)
         values[k][d] = 0;
-    check_finite(values[k], points[k], fmt::format("boundary id {}: the traction", id));
-    for (std::size_t a = 0; a < n_nodes; ++a)
-      for (std::size_t d = 0; d < 2; ++d)
-        load[2 * std::size_t{nodes[k / n_points * n_nodes + a]} + d] += shape[k % n_points][a] * jxw[k] * values[k][d];
+    check_finite(values[k], points[k], what);
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double force = jxw[k] * values[k][d];
+      resultant[d] += force;
+      loads.magnitude += std::abs(force);
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        loads.nodal[2 * std::size_t{nodes[k / n_points * n_nodes + a]} + d] += shape[k % n_points][a] * force;
+    }
   }
 }
 } // namespace
 
-std::vector<double> load_vector(const PlaneProblem &problem, const Discretisation &discretisation) {
-  std::vector<double> load(2 * discretisation.n_nodes(), 0.);
+Loads loads(const PlaneProblem &problem, const Discretisation &discretisation) {
+  Loads result;
+  result.nodal.assign(2 * discretisation.n_nodes(), 0.);
   if (problem.body_force)
-    add_body_force(problem.body_force, discretisation, load);
+    for (const auto &element : discretisation.elements)
+      add_body_force(problem.body_force, element, discretisation, result);
   for (const auto &[id, condition] : problem.boundary)
     if (condition.traction &&
         (condition.kind[0] == ConditionKind::traction || condition.kind[1] == ConditionKind::traction))
-      add_traction(id, condition, discretisation, load);
-  return load;
+      add_traction(id, condition, discretisation, result);
+  return result;
 }
 } // namespace fem_reference::elasticity

@@ -12,16 +12,20 @@ namespace fem_reference::elasticity {
 namespace {
 constexpr double tolerance = 1e-10;
 constexpr double largest_continuation = .25;
+/// Steps of Newton's method smaller than this were the last that mattered: it converges quadratically.
+constexpr double last_step = 1e-12;
 
 using mesh::Point;
 
-/// Corners of a cell in the order (0,0), (1,0), (0,1), (1,1). Sides are straight, so the corners
-/// alone give the geometry, whatever the degree.
+/// Corners of a cell, counter-clockwise. Where its sides are straight they alone give the geometry, whatever
+/// the degree.
 std::array<Point, 4> corners(const Discretisation &discretisation, std::size_t cell) {
   const auto nodes = discretisation.nodes_of(cell);
-  const auto p = static_cast<std::size_t>(discretisation.degree);
-  return {discretisation.positions[nodes[0]], discretisation.positions[nodes[p]],
-          discretisation.positions[nodes[p * (p + 1)]], discretisation.positions[nodes[p * (p + 2)]]};
+  const auto &element = discretisation.element_of(cell);
+  std::array<Point, 4> result{};
+  for (unsigned k = 0; k < element.n_vertices(); ++k)
+    result[k] = discretisation.positions[nodes[element.corner(k)]];
+  return result;
 }
 
 /// The point of the segment from a to b closest to x: its parameter in [0, 1] and distance squared.
@@ -38,6 +42,40 @@ Projection project(Point x, Point a, Point b) {
   return {t, d0 * d0 + d1 * d1};
 }
 
+/// A curved side is taken as a polygon of this many segments: enough to tell which cell is nearest.
+constexpr int segments_of_curve = 16;
+
+Point point_of_side(const Discretisation &discretisation, std::size_t cell, unsigned side, double t) {
+  const auto nodes = discretisation.nodes_of(cell);
+  const auto &element = discretisation.element_of(cell);
+  const auto along = element.side(side);
+  LagrangeBasis::Values shape, slope;
+  element.line().evaluate(t, shape, slope);
+  Point x{};
+  for (std::size_t a = 0; a < along.size(); ++a)
+    for (std::size_t d = 0; d < 2; ++d)
+      x[d] += shape[a] * discretisation.positions[nodes[along[a]]][d];
+  return x;
+}
+
+/// As project, for a side of a cell.
+Projection project_on_side(Point x, const Discretisation &discretisation, std::size_t cell, unsigned side) {
+  const auto nodes = discretisation.nodes_of(cell);
+  const auto along = discretisation.element_of(cell).side(side);
+  if (discretisation.curved[cell] == 0)
+    return project(x, discretisation.positions[nodes[along.front()]], discretisation.positions[nodes[along.back()]]);
+  Projection best = {0, std::numeric_limits<double>::max()};
+  Point from = discretisation.positions[nodes[along.front()]];
+  for (int k = 1; k <= segments_of_curve; ++k) {
+    const Point to = point_of_side(discretisation, cell, side, static_cast<double>(k) / segments_of_curve);
+    const auto projection = project(x, from, to);
+    if (projection.distance_squared < best.distance_squared)
+      best = {(k - 1 + projection.parameter) / segments_of_curve, projection.distance_squared};
+    from = to;
+  }
+  return best;
+}
+
 double squared_distance(Point x, Point lower, Point upper) {
   const double d0 = std::max({lower[0] - x[0], 0., x[0] - upper[0]});
   const double d1 = std::max({lower[1] - x[1], 0., x[1] - upper[1]});
@@ -45,21 +83,37 @@ double squared_distance(Point x, Point lower, Point upper) {
 }
 } // namespace
 
+PointLocation::Box PointLocation::box_of(std::size_t cell) const {
+  Box box = {{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()},
+             {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()}};
+  const auto include = [&box](Point x) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      box.lower[d] = std::min(box.lower[d], x[d]);
+      box.upper[d] = std::max(box.upper[d], x[d]);
+    }
+  };
+  const bool curved = discretisation_.curved[cell] != 0;
+  const auto corner = corners(discretisation_, cell);
+  for (unsigned k = 0; k < discretisation_.n_vertices[cell]; ++k) {
+    include(corner[k]);
+    for (int i = 1; curved && i < segments_of_curve; ++i)
+      include(point_of_side(discretisation_, cell, k, static_cast<double>(i) / segments_of_curve));
+  }
+  // Between the points of a polygon the side leaves it by less than a hundredth.
+  const double margin = (curved ? .01 : 1e-9) * std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+  for (std::size_t d = 0; d < 2; ++d) {
+    box.lower[d] -= margin;
+    box.upper[d] += margin;
+  }
+  return box;
+}
+
 PointLocation::PointLocation(const Discretisation &discretisation) : discretisation_(discretisation) {
   boxes_.reserve(discretisation.n_cells);
   Point upper{};
   for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
-    const auto corner = corners(discretisation, c);
-    Box box = {corner[0], corner[0]};
-    for (const auto &x : corner)
-      for (std::size_t d = 0; d < 2; ++d) {
-        box.lower[d] = std::min(box.lower[d], x[d]);
-        box.upper[d] = std::max(box.upper[d], x[d]);
-      }
-    const double margin = 1e-9 * std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+    const Box box = box_of(c);
     for (std::size_t d = 0; d < 2; ++d) {
-      box.lower[d] -= margin;
-      box.upper[d] += margin;
       lower_[d] = c == 0 ? box.lower[d] : std::min(lower_[d], box.lower[d]);
       upper[d] = c == 0 ? box.upper[d] : std::max(upper[d], box.upper[d]);
     }
@@ -94,17 +148,23 @@ int PointLocation::bin_of(double coordinate, std::size_t direction) const {
   return static_cast<int>(std::clamp(bin, 0., n_bins_[direction] - .5));
 }
 
-/// Newton's method for the bilinear map, from the centre. False if it does not converge, which for a
-/// convex cell happens only away from it.
+/// Newton's method, from the centre; for straight sides with the bilinear or linear map. False if it does
+/// not converge, which for a convex cell with straight sides happens only away from it.
 bool PointLocation::invert(std::size_t cell, Point point, Point &xi) const {
+  if (discretisation_.curved[cell] != 0) {
+    xi = discretisation_.element_of(cell).centre();
+    return invert_curved(cell, point, xi);
+  }
   const auto x = corners(discretisation_, cell);
+  const bool triangle = discretisation_.n_vertices[cell] == 3;
+  const Point &opposite = triangle ? x[2] : x[3];
   Point a{};
   Point b{};
   Point c{};
   for (std::size_t d = 0; d < 2; ++d) {
     a[d] = x[1][d] - x[0][d];
-    b[d] = x[2][d] - x[0][d];
-    c[d] = x[3][d] - x[2][d] - a[d];
+    b[d] = opposite[d] - x[0][d];
+    c[d] = triangle ? 0 : x[2][d] - x[3][d] - a[d];
   }
   xi = {.5, .5};
   for (int iteration = 0; iteration < 20; ++iteration) {
@@ -119,10 +179,53 @@ bool PointLocation::invert(std::size_t cell, Point point, Point &xi) const {
       return false;
     xi[0] += s;
     xi[1] += t;
-    if (std::abs(s) + std::abs(t) < 1e-12) // quadratic: this step was the last that mattered
+    if (std::abs(s) + std::abs(t) < last_step)
       return true;
   }
   return false;
+}
+
+/// Newton's method for the isoparametric map, from the given xi.
+bool PointLocation::invert_curved(std::size_t cell, Point point, Point &xi) const {
+  const auto nodes = discretisation_.nodes_of(cell);
+  const auto &element = discretisation_.element_of(cell);
+  ReferenceElement::Values shape, slope_1, slope_2;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    element.evaluate(xi, shape, slope_1, slope_2);
+    Point residual = point;
+    Point d1{};
+    Point d2{};
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t d = 0; d < 2; ++d) {
+        const double coordinate = discretisation_.positions[nodes[a]][d];
+        residual[d] -= shape[a] * coordinate;
+        d1[d] += slope_1[a] * coordinate;
+        d2[d] += slope_2[a] * coordinate;
+      }
+    const double determinant = d1[0] * d2[1] - d1[1] * d2[0];
+    const double s = (d2[1] * residual[0] - d2[0] * residual[1]) / determinant;
+    const double t = (d1[0] * residual[1] - d1[1] * residual[0]) / determinant;
+    xi[0] += s;
+    xi[1] += t;
+    // Far from the element its polynomials grow and lead further away.
+    if (!(std::abs(xi[0]) + std::abs(xi[1]) < 10))
+      return false;
+    if (std::abs(s) + std::abs(t) < last_step)
+      return true;
+  }
+  return false;
+}
+
+/// Second try for a curved cell, where Newton.s method may miss from the centre: from the node next to the point.
+bool PointLocation::invert_from_node(std::size_t cell, Point point, Point &xi) const {
+  const auto nodes = discretisation_.nodes_of(cell);
+  const auto distance = [&](unsigned node) {
+    return std::hypot(discretisation_.positions[node][0] - point[0], discretisation_.positions[node][1] - point[1]);
+  };
+  const auto closest =
+      std::min_element(nodes.begin(), nodes.end(), [&](unsigned i, unsigned j) { return distance(i) < distance(j); });
+  xi = discretisation_.element_of(cell).nodes()[static_cast<std::size_t>(closest - nodes.begin())];
+  return invert_curved(cell, point, xi);
 }
 
 Location PointLocation::locate(Point point) const {
@@ -131,16 +234,18 @@ Location PointLocation::locate(Point point) const {
                                    discretisation_.origin[1] + point[1]));
   const std::size_t bin = static_cast<std::size_t>(bin_of(point[1], 1)) * n_bins_[0] + bin_of(point[0], 0);
   Location location;
-  for (unsigned k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k) {
-    const auto &box = boxes_[bin_cells_[k]];
-    if (squared_distance(point, box.lower, box.upper) > 0 || !invert(bin_cells_[k], point, location.xi))
-      continue;
-    const auto [s, t] = location.xi;
-    if (s >= -tolerance && s <= 1 + tolerance && t >= -tolerance && t <= 1 + tolerance) {
-      location.cell = bin_cells_[k];
-      return location;
+  for (const bool second_try : {false, true})
+    for (unsigned k = bin_start_[bin]; k < bin_start_[bin + 1]; ++k) {
+      const unsigned cell = bin_cells_[k];
+      if (squared_distance(point, boxes_[cell].lower, boxes_[cell].upper) > 0 ||
+          (second_try && discretisation_.curved[cell] == 0))
+        continue;
+      const bool found = second_try ? invert_from_node(cell, point, location.xi) : invert(cell, point, location.xi);
+      if (found && discretisation_.element_of(cell).contains(location.xi, tolerance)) {
+        location.cell = cell;
+        return location;
+      }
     }
-  }
   return nearest(point);
 }
 
@@ -154,15 +259,13 @@ Location PointLocation::nearest(Point point) const {
   const auto visit = [&](unsigned cell) {
     if (squared_distance(point, boxes_[cell].lower, boxes_[cell].upper) > best)
       return;
-    const auto x = corners(discretisation_, cell);
-    const std::array<std::array<int, 2>, 4> sides = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
-    for (std::size_t side = 0; side < 4; ++side) {
-      const auto projection = project(point, x[sides[side][0]], x[sides[side][1]]);
+    const auto &element = discretisation_.element_of(cell);
+    for (unsigned side = 0; side < element.n_vertices(); ++side) {
+      const auto projection = project_on_side(point, discretisation_, cell, side);
       if (projection.distance_squared < best || (projection.distance_squared == best && cell < location.cell)) {
         best = projection.distance_squared;
         location.cell = cell;
-        const double t = projection.parameter;
-        on_border = side < 2 ? Point{side == 0 ? 0. : 1., t} : Point{t, side == 2 ? 0. : 1.};
+        on_border = element.on_side(side, projection.parameter);
       }
     }
   };
@@ -186,10 +289,14 @@ Location PointLocation::nearest(Point point) const {
       }
   }
   // Where the cell's map cannot be continued to the point, the closest point of its border stands in.
-  if (!invert(location.cell, point, location.xi) || squared_distance(location.xi, {-1, -1}, {2, 2}) > 0)
+  const auto &element = discretisation_.element_of(location.cell);
+  const bool curved = discretisation_.curved[location.cell] != 0;
+  location.xi = on_border;
+  const bool inverted =
+      curved ? invert_curved(location.cell, point, location.xi) : invert(location.cell, point, location.xi);
+  if (!inverted || !element.contains(location.xi, 1))
     location.xi = on_border;
-  for (auto &coordinate : location.xi)
-    coordinate = std::clamp(coordinate, -largest_continuation, 1 + largest_continuation);
+  location.xi = element.limited(location.xi, largest_continuation);
   return location;
 }
 } // namespace fem_reference::elasticity

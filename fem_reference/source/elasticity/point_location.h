@@ -20,8 +20,8 @@ class PointLocation {
 public:
   explicit PointLocation(const Discretisation &discretisation);
 
-  /// The cell of lowest index that holds the point within 1e-10 of a cell, else the nearest cell
-  /// with reference coordinates limited to [-1/4, 5/4] and `outside` set.
+  /// The cell of lowest index that holds the point within 1e-10 of a cell, else the nearest cell, whose
+  /// reference coordinates may leave the element by up to 1/4, and `outside` set.
   /// Throws InvalidInput if the point is not finite.
   Location locate(mesh::Point point) const;
 
@@ -31,8 +31,11 @@ private:
     mesh::Point upper;
   };
 
+  Box box_of(std::size_t cell) const;
   int bin_of(double coordinate, std::size_t direction) const;
   bool invert(std::size_t cell, mesh::Point point, mesh::Point &xi) const;
+  bool invert_curved(std::size_t cell, mesh::Point point, mesh::Point &xi) const;
+  bool invert_from_node(std::size_t cell, mesh::Point point, mesh::Point &xi) const;
   Location nearest(mesh::Point point) const;
 
   const Discretisation &discretisation_;

@@ -1,59 +1,58 @@
 #include "stiffness.h"
 
 #include "fem_reference/errors.h"
-#include "reference_element.h"
 
 #include <array>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 namespace fem_reference::elasticity {
 namespace {
-/// Integrals of N_a,r N_b,s over one cell. Rows are padded to whole vectors.
-template <int degree>
-struct GradientProducts {
-  static constexpr int n_nodes = (degree + 1) * (degree + 1);
-  static constexpr int stride = (n_nodes + 7) / 8 * 8;
-  using Matrix = std::array<std::array<double, stride>, n_nodes>;
+/// Rows of n values are padded to whole vectors.
+constexpr int padded(int n) { return (n + 7) / 8 * 8; }
 
-  alignas(64) Matrix m11;
-  alignas(64) Matrix m12; // row: derivative 1, column: derivative 2
-  alignas(64) Matrix m22;
+template <int n_nodes>
+struct alignas(64) NodeRow : std::array<double, padded(n_nodes)> {};
+
+/// Integrals of N_a,r N_b,s over one cell.
+template <int n_nodes>
+struct GradientProducts {
+  using Matrix = std::array<NodeRow<n_nodes>, n_nodes>;
+
+  Matrix m11;
+  Matrix m12; // row: derivative 1, column: derivative 2
+  Matrix m22;
 };
 
 /// Shape gradients at the quadrature points, rows padded with zeros.
-template <int degree>
+template <int n_nodes>
 struct PaddedTable {
-  using Row = std::array<double, GradientProducts<degree>::stride>;
-  static constexpr int n_points = (degree + 1) * (degree + 1);
-
-  explicit PaddedTable(const ShapeTable &table) {
-    for (int q = 0; q < n_points; ++q) {
-      weight[q] = table.weights[q];
-      for (int a = 0; a < table.n_nodes; ++a) {
-        gradient_1[q][a] = table.gradients_1[q * table.n_nodes + a];
-        gradient_2[q][a] = table.gradients_2[q * table.n_nodes + a];
+  explicit PaddedTable(const ShapeTable &table)
+      : n_points(table.n_points), gradient_1(table.weights.size()), gradient_2(table.weights.size()),
+        weight(table.weights) {
+    for (int q = 0; q < n_points; ++q)
+      for (int a = 0; a < n_nodes; ++a) {
+        gradient_1[q][a] = table.gradients_1[q * n_nodes + a];
+        gradient_2[q][a] = table.gradients_2[q * n_nodes + a];
       }
-    }
   }
 
-  alignas(64) std::array<Row, n_points> gradient_1{};
-  alignas(64) std::array<Row, n_points> gradient_2{};
-  std::array<double, n_points> weight{};
+  int n_points;
+  std::vector<NodeRow<n_nodes>> gradient_1;
+  std::vector<NodeRow<n_nodes>> gradient_2;
+  std::vector<double> weight;
 };
-
-template <int degree>
-using NodeRow = typename PaddedTable<degree>::Row;
 
 /// Gradients of the shape functions in space at one quadrature point. Returns JxW, not positive if the
 /// cell is inverted there.
-template <int degree>
-double map_gradients(const PaddedTable<degree> &table, int q, const NodeRow<degree> &x1, const NodeRow<degree> &x2,
-                     NodeRow<degree> &g1, NodeRow<degree> &g2) {
+template <int n_nodes>
+double map_gradients(const PaddedTable<n_nodes> &table, int q, const NodeRow<n_nodes> &x1, const NodeRow<n_nodes> &x2,
+                     NodeRow<n_nodes> &g1, NodeRow<n_nodes> &g2) {
   const auto &d1 = table.gradient_1[q];
   const auto &d2 = table.gradient_2[q];
   double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
-  for (int a = 0; a < GradientProducts<degree>::n_nodes; ++a) {
+  for (int a = 0; a < n_nodes; ++a) {
     j11 += x1[a] * d1[a];
     j12 += x1[a] * d2[a];
     j21 += x2[a] * d1[a];
@@ -61,42 +60,37 @@ double map_gradients(const PaddedTable<degree> &table, int q, const NodeRow<degr
   }
   const double determinant = j11 * j22 - j12 * j21;
   const double inverse = 1 / determinant;
-  for (int a = 0; a < GradientProducts<degree>::stride; ++a) {
+  for (int a = 0; a < padded(n_nodes); ++a) {
     g1[a] = (j22 * d1[a] - j21 * d2[a]) * inverse;
     g2[a] = (j11 * d2[a] - j12 * d1[a]) * inverse;
   }
   return table.weight[q] * determinant;
 }
 
-template <int degree>
-void gather_positions(const Discretisation &discretisation, const unsigned *nodes, NodeRow<degree> &x1,
-                      NodeRow<degree> &x2) {
-  for (int a = 0; a < GradientProducts<degree>::n_nodes; ++a) {
+template <int n_nodes>
+void gather_positions(const Discretisation &discretisation, const unsigned *nodes, NodeRow<n_nodes> &x1,
+                      NodeRow<n_nodes> &x2) {
+  for (int a = 0; a < n_nodes; ++a) {
     x1[a] = discretisation.positions[nodes[a]][0];
     x2[a] = discretisation.positions[nodes[a]][1];
   }
 }
 
 /// Returns false if the Jacobian is not positive at some quadrature point.
-template <int degree>
-bool integrate_cell(const PaddedTable<degree> &table, const Discretisation &discretisation, const unsigned *nodes,
-                    GradientProducts<degree> &products) {
-  constexpr int n = GradientProducts<degree>::n_nodes;
-  constexpr int stride = GradientProducts<degree>::stride;
-  alignas(64) NodeRow<degree> x1{};
-  alignas(64) NodeRow<degree> x2{};
-  gather_positions<degree>(discretisation, nodes, x1, x2);
+template <int n_nodes>
+bool integrate_cell(const PaddedTable<n_nodes> &table, const Discretisation &discretisation, const unsigned *nodes,
+                    GradientProducts<n_nodes> &products) {
+  NodeRow<n_nodes> x1{}, x2{}, g1, g2;
+  gather_positions(discretisation, nodes, x1, x2);
   products = {};
   for (int q = 0; q < table.n_points; ++q) {
-    alignas(64) NodeRow<degree> g1;
-    alignas(64) NodeRow<degree> g2;
-    const double jxw = map_gradients<degree>(table, q, x1, x2, g1, g2);
+    const double jxw = map_gradients(table, q, x1, x2, g1, g2);
     if (!(jxw > 0))
       return false;
-    for (int a = 0; a < n; ++a) {
+    for (int a = 0; a < n_nodes; ++a) {
       const double w1 = jxw * g1[a];
       const double w2 = jxw * g2[a];
-      for (int b = 0; b < stride; ++b) {
+      for (int b = 0; b < padded(n_nodes); ++b) {
         products.m11[a][b] += w1 * g1[b];
         products.m12[a][b] += w1 * g2[b];
         products.m22[a][b] += w2 * g2[b];
@@ -106,17 +100,16 @@ bool integrate_cell(const PaddedTable<degree> &table, const Discretisation &disc
   return true;
 }
 
-template <int degree>
-void add_to_matrix(const GradientProducts<degree> &products, double lambda, double mu, const unsigned *nodes,
+template <int n_nodes>
+void add_to_matrix(const GradientProducts<n_nodes> &products, double lambda, double mu, const unsigned *nodes,
                    linear_algebra::BlockMatrix &matrix) {
-  constexpr int n = GradientProducts<degree>::n_nodes;
-  for (int b = 0; b < n; ++b) {
+  for (int b = 0; b < n_nodes; ++b) {
     const unsigned column = nodes[b];
     const int first_block = matrix.block_start[column];
     const int n_blocks = matrix.block_start[column + 1] - first_block;
     double *column_0 = matrix.values.data() + matrix.first_entry(column);
     double *column_1 = column_0 + 2 * n_blocks - 1; // its row 2 column is not stored
-    for (int a = 0; a < n; ++a) {
+    for (int a = 0; a < n_nodes; ++a) {
       const unsigned row = nodes[a];
       if (row < column)
         continue;
@@ -135,28 +128,31 @@ void add_to_matrix(const GradientProducts<degree> &products, double lambda, doub
   }
 }
 
-template <int degree>
-void subtract_internal_forces(const Discretisation &discretisation, const Material &material,
-                              std::span<const double> displacement, std::vector<double> &residual) {
-  constexpr int n = GradientProducts<degree>::n_nodes;
-  constexpr int stride = GradientProducts<degree>::stride;
-  const PaddedTable<degree> table(ShapeTable(degree, degree + 1));
-  const double lambda = material.lambda();
-  const double mu = material.mu();
-  alignas(64) NodeRow<degree> x1{}, x2{}, u1{}, u2{}, f1, f2, g1, g2;
+template <int n_nodes>
+void add_internal_forces(const ReferenceElement &element, const Discretisation &discretisation,
+                         std::span<const Material> materials, std::span<const double> displacement,
+                         InternalForces &result) {
+  const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
+  NodeRow<n_nodes> x1{}, x2{}, u1{}, u2{}, f1, f2, g1, g2;
+  double twice_energy = 0;
   for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
+    if (discretisation.n_vertices[c] != element.n_vertices())
+      continue;
+    const auto &material = materials[static_cast<std::size_t>(discretisation.regions[c])];
+    const double lambda = material.lambda();
+    const double mu = material.mu();
     const unsigned *nodes = discretisation.nodes_of(c).data();
-    gather_positions<degree>(discretisation, nodes, x1, x2);
-    for (int a = 0; a < n; ++a) {
+    gather_positions(discretisation, nodes, x1, x2);
+    for (int a = 0; a < n_nodes; ++a) {
       u1[a] = displacement[2 * std::size_t{nodes[a]}] - displacement[2 * std::size_t{nodes[0]}];
       u2[a] = displacement[2 * std::size_t{nodes[a]} + 1] - displacement[2 * std::size_t{nodes[0]} + 1];
     }
     f1.fill(0);
     f2.fill(0);
     for (int q = 0; q < table.n_points; ++q) {
-      const double jxw = map_gradients<degree>(table, q, x1, x2, g1, g2);
+      const double jxw = map_gradients(table, q, x1, x2, g1, g2);
       double e11 = 0, e22 = 0, gamma = 0;
-      for (int a = 0; a < n; ++a) {
+      for (int a = 0; a < n_nodes; ++a) {
         e11 += g1[a] * u1[a];
         e22 += g2[a] * u2[a];
         gamma += g2[a] * u1[a] + g1[a] * u2[a];
@@ -164,64 +160,97 @@ void subtract_internal_forces(const Discretisation &discretisation, const Materi
       const double s11 = jxw * (lambda * (e11 + e22) + 2 * mu * e11);
       const double s22 = jxw * (lambda * (e11 + e22) + 2 * mu * e22);
       const double s12 = jxw * mu * gamma;
-      for (int a = 0; a < stride; ++a) {
+      twice_energy += s11 * e11 + s22 * e22 + s12 * gamma;
+      for (int a = 0; a < padded(n_nodes); ++a) {
         f1[a] += s11 * g1[a] + s12 * g2[a];
         f2[a] += s12 * g1[a] + s22 * g2[a];
       }
     }
-    for (int a = 0; a < n; ++a) {
-      residual[2 * std::size_t{nodes[a]}] -= f1[a];
-      residual[2 * std::size_t{nodes[a]} + 1] -= f2[a];
+    for (int a = 0; a < n_nodes; ++a) {
+      result.forces[2 * std::size_t{nodes[a]}] += f1[a];
+      result.forces[2 * std::size_t{nodes[a]} + 1] += f2[a];
     }
+  }
+  result.energy += .5 * twice_energy;
+}
+
+[[noreturn]] void refuse_jacobian(const Discretisation &discretisation, std::size_t c) {
+  mesh::Point centre{};
+  const auto nodes = discretisation.nodes_of(c);
+  for (const unsigned node : nodes)
+    for (std::size_t d = 0; d < 2; ++d)
+      centre[d] += discretisation.original_position(node)[d] / static_cast<double>(nodes.size());
+  throw InvalidInput(fmt::format(
+      "mesh: the Jacobian of cell {} around ({}, {}) is not positive everywhere; {}", c, centre[0], centre[1],
+      discretisation.curved[c] != 0 ? "a curved side folds it: use smaller cells there, or curve the sides inside too"
+                                    : "move its vertices"));
+}
+
+template <int n_nodes>
+void assemble(const ReferenceElement &element, const Discretisation &discretisation,
+              std::span<const Material> materials, linear_algebra::BlockMatrix &matrix) {
+  const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
+  GradientProducts<n_nodes> products;
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
+    if (discretisation.n_vertices[c] != element.n_vertices())
+      continue;
+    const auto &material = materials[static_cast<std::size_t>(discretisation.regions[c])];
+    const unsigned *nodes = discretisation.nodes_of(c).data();
+    if (!integrate_cell(table, discretisation, nodes, products))
+      refuse_jacobian(discretisation, c);
+    add_to_matrix(products, material.lambda(), material.mu(), nodes, matrix);
   }
 }
 
-template <int degree>
-void assemble(const Discretisation &discretisation, const Material &material, linear_algebra::BlockMatrix &matrix) {
-  const PaddedTable<degree> table(ShapeTable(degree, degree + 1));
-  const double lambda = material.lambda();
-  const double mu = material.mu();
-  GradientProducts<degree> products;
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
-    const unsigned *nodes = discretisation.nodes_of(c).data();
-    if (!integrate_cell(table, discretisation, nodes, products))
-      throw InvalidInput(fmt::format("mesh: the Jacobian of cell {} is not positive everywhere; move its vertices", c));
-    add_to_matrix(products, lambda, mu, nodes, matrix);
+/// Calls function(n_nodes, element) for both shapes, with n_nodes a compile-time constant: it tells the shape and the
+/// degree apart.
+template <typename Function>
+void for_each_element(const Discretisation &discretisation, const Function &function) {
+  for (const auto &element : discretisation.elements) {
+    switch (element.n_nodes()) {
+    case 3:
+      function(std::integral_constant<int, 3>(), element);
+      break;
+    case 6:
+      function(std::integral_constant<int, 6>(), element);
+      break;
+    case 10:
+      function(std::integral_constant<int, 10>(), element);
+      break;
+    case 15:
+      function(std::integral_constant<int, 15>(), element);
+      break;
+    case 4:
+      function(std::integral_constant<int, 4>(), element);
+      break;
+    case 9:
+      function(std::integral_constant<int, 9>(), element);
+      break;
+    case 16:
+      function(std::integral_constant<int, 16>(), element);
+      break;
+    default:
+      function(std::integral_constant<int, 25>(), element);
+      break;
+    }
   }
 }
 } // namespace
 
-void assemble_stiffness(const Discretisation &discretisation, const Material &material,
+void assemble_stiffness(const Discretisation &discretisation, std::span<const Material> materials,
                         linear_algebra::BlockMatrix &matrix) {
-  switch (discretisation.degree) {
-  case 1:
-    return assemble<1>(discretisation, material, matrix);
-  case 2:
-    return assemble<2>(discretisation, material, matrix);
-  case 3:
-    return assemble<3>(discretisation, material, matrix);
-  default:
-    return assemble<4>(discretisation, material, matrix);
-  }
+  for_each_element(discretisation, [&](auto n_nodes, const ReferenceElement &element) {
+    assemble<n_nodes()>(element, discretisation, materials, matrix);
+  });
 }
 
-std::vector<double> residual_by_cells(const Discretisation &discretisation, const Material &material,
-                                      std::span<const double> displacement, std::span<const double> load) {
-  std::vector<double> residual(load.begin(), load.end());
-  switch (discretisation.degree) {
-  case 1:
-    subtract_internal_forces<1>(discretisation, material, displacement, residual);
-    break;
-  case 2:
-    subtract_internal_forces<2>(discretisation, material, displacement, residual);
-    break;
-  case 3:
-    subtract_internal_forces<3>(discretisation, material, displacement, residual);
-    break;
-  default:
-    subtract_internal_forces<4>(discretisation, material, displacement, residual);
-    break;
-  }
-  return residual;
+InternalForces internal_forces(const Discretisation &discretisation, std::span<const Material> materials,
+                               std::span<const double> displacement) {
+  InternalForces result;
+  result.forces.assign(displacement.size(), 0.);
+  for_each_element(discretisation, [&](auto n_nodes, const ReferenceElement &element) {
+    add_internal_forces<n_nodes()>(element, discretisation, materials, displacement, result);
+  });
+  return result;
 }
 } // namespace fem_reference::elasticity

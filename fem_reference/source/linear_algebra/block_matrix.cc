@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 
 namespace fem_reference::linear_algebra {
-BlockMatrix::BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_nodes, unsigned nodes_per_cell) {
+BlockMatrix::BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_start,
+                         std::span<const unsigned> cell_nodes) {
   // The cells of every node.
   std::vector<unsigned> start(n_nodes + 1, 0);
   for (const unsigned node : cell_nodes)
@@ -19,8 +20,9 @@ BlockMatrix::BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_nod
   std::vector<unsigned> cells(cell_nodes.size());
   {
     std::vector<unsigned> next(start.begin(), start.end() - 1);
-    for (std::size_t k = 0; k < cell_nodes.size(); ++k)
-      cells[next[cell_nodes[k]]++] = static_cast<unsigned>(k / nodes_per_cell);
+    for (unsigned c = 0; c + 1 < cell_start.size(); ++c)
+      for (unsigned k = cell_start[c]; k < cell_start[c + 1]; ++k)
+        cells[next[cell_nodes[k]]++] = c;
   }
 
   constexpr auto no_column = std::numeric_limits<unsigned>::max();
@@ -32,7 +34,7 @@ BlockMatrix::BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_nod
   for (unsigned j = 0; j < n_nodes; ++j) {
     const auto first = static_cast<std::ptrdiff_t>(block_rows.size());
     for (unsigned k = start[j]; k < start[j + 1]; ++k)
-      for (const unsigned i : cell_nodes.subspan(std::size_t{cells[k]} * nodes_per_cell, nodes_per_cell))
+      for (const unsigned i : cell_nodes.subspan(cell_start[cells[k]], cell_start[cells[k] + 1] - cell_start[cells[k]]))
         if (i >= j && seen_in[i] != j) {
           seen_in[i] = j;
           block_rows.push_back(static_cast<int>(i));

@@ -12,9 +12,9 @@ namespace fem_reference::linear_algebra {
 /// 32-bit indices, as CHOLMOD's fast interface takes.
 class BlockMatrix {
 public:
-  /// Sparsity of a space whose unknowns couple within cells: `cell_nodes` lists nodes_per_cell nodes a
-  /// cell. Throws SolveFailure if the number of entries exceeds 32 bits.
-  BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_nodes, unsigned nodes_per_cell);
+  /// Sparsity of a space whose unknowns couple within cells: those of cell c are cell_nodes[cell_start[c]] to
+  /// cell_nodes[cell_start[c + 1] - 1]. Throws SolveFailure if the number of entries exceeds 32 bits.
+  BlockMatrix(std::size_t n_nodes, std::span<const unsigned> cell_start, std::span<const unsigned> cell_nodes);
 
   int n_nodes() const { return static_cast<int>(block_start.size()) - 1; }
   int n_rows() const { return 2 * n_nodes(); }

@@ -15,7 +15,7 @@ namespace meshless::cloud {
 namespace {
 
 template <int dim>
-void check_positions(std::span<const Point<dim>> positions) {
+void check_positions(std::span<const Point<dim>> positions, std::span<const int> regions) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     for (const double x : positions[i])
       if (!std::isfinite(x))
@@ -26,11 +26,14 @@ void check_positions(std::span<const Point<dim>> positions) {
   std::vector<std::size_t> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     order[i] = i;
+  const auto region = [&](std::size_t i) { return regions.empty() ? 0 : regions[i]; };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
+    if (positions[a] != positions[b])
+      return positions[a] < positions[b];
+    return region(a) != region(b) ? region(a) < region(b) : a < b;
   });
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (positions[order[k]] == positions[order[k - 1]])
+    if (positions[order[k]] == positions[order[k - 1]] && region(order[k]) == region(order[k - 1]))
       throw std::invalid_argument(fmt::format("particles {} and {} are at the same place ({})", order[k - 1], order[k],
                                               fmt::join(positions[order[k]], ", ")));
 }
@@ -39,8 +42,9 @@ void check_positions(std::span<const Point<dim>> positions) {
 
 template <int dim>
 Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths,
-                          std::vector<double> volumes)
-    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)), volumes_(std::move(volumes)) {
+                          std::vector<double> volumes, std::vector<int> regions)
+    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)), volumes_(std::move(volumes)),
+      regions_(std::move(regions)) {
   if (positions_.empty())
     throw std::invalid_argument("a cloud needs at least one particle");
   if (positions_.size() != smoothing_lengths_.size())
@@ -48,7 +52,12 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
         fmt::format("{} positions but {} smoothing lengths", positions_.size(), smoothing_lengths_.size()));
   if (!volumes_.empty() && positions_.size() != volumes_.size())
     throw std::invalid_argument(fmt::format("{} positions but {} volumes", positions_.size(), volumes_.size()));
-  check_positions<dim>(positions_);
+  if (!regions_.empty() && positions_.size() != regions_.size())
+    throw std::invalid_argument(fmt::format("{} positions but {} regions", positions_.size(), regions_.size()));
+  for (std::size_t i = 0; i < regions_.size(); ++i)
+    if (regions_[i] < 0)
+      throw std::invalid_argument(fmt::format("particle {}: its region {} is not an index", i, regions_[i]));
+  check_positions<dim>(positions_, regions_);
   for (std::size_t i = 0; i < volumes_.size(); ++i)
     if (!(volumes_[i] > 0) || !std::isfinite(volumes_[i]))
       throw std::invalid_argument(fmt::format("particle {}: its volume {} is not positive", i, volumes_[i]));

@@ -1,11 +1,12 @@
 #include "meshless/domain/local_subdomain.h"
 
+#include "wedge.h"
+
 #include "meshless/linear_algebra/gauss_legendre.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 namespace meshless::domain {
@@ -13,55 +14,19 @@ namespace meshless::domain {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
+/// Longest arc that n_radial Gauss points are trusted with, radians.
+constexpr double longest_arc = 1;
 
-double dot(const Point2 &a, const Point2 &b) { return a[0] * b[0] + a[1] * b[1]; }
-double cross(const Point2 &a, const Point2 &b) { return a[0] * b[1] - a[1] * b[0]; }
-Point2 minus(const Point2 &a, const Point2 &b) { return {a[0] - b[0], a[1] - b[1]}; }
+using PartKind = SubdomainQuadrature::PartKind;
 
-/// Part of a segment inside a disc, as parameters in [0, 1], and that of the nearest point.
-struct Chord {
-  double begin;
-  double end;
-  double nearest;
-};
+Point2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-std::optional<Chord> chord(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance) {
-  const Point2 along = minus(piece.end, piece.begin);
-  const Point2 from = minus(piece.begin, centre);
-  const double length = piece.length();
-  const double nearest = -dot(along, from) / (length * length);
-  const double distance = std::abs(cross(along, from)) / length;
-  if (distance >= radius)
-    return {};
-  const double half = std::sqrt((radius - distance) * (radius + distance)) / length;
-  const Chord result{std::max(0.0, nearest - half), std::min(1.0, nearest + half), nearest};
-  if (result.end - result.begin <= tolerance / length)
-    return {};
-  return result;
-}
-
-/// Distance along the ray from centre in `direction` to the line of the piece, or nothing if it
-/// does not meet the piece.
-std::optional<double> crossing(const BoundaryPiece &piece, const Point2 &centre, const Point2 &direction,
-                               double tolerance) {
-  const Point2 along = minus(piece.end, piece.begin);
-  const Point2 from = minus(piece.begin, centre);
-  const double denominator = cross(direction, along);
-  const double length = piece.length();
-  if (std::abs(denominator) <= 1e-14 * length)
-    return {}; // parallel: such a ray is a break point, not inside a wedge
-  const double t = cross(from, direction) / denominator;
-  const double r = cross(from, along) / denominator;
-  // Rays through an end of a piece are break points too; the slack only guards against rounding.
-  const double slack = tolerance / length;
-  if (t < -slack || t > 1 + slack || r <= tolerance)
-    return {};
-  return r;
-}
-
-double angle_of(const Point2 &v) {
-  const double angle = std::atan2(v[1], v[0]);
-  return angle < 0 ? angle + full_turn : angle;
+void add_boundary_point(const Point2 &x, const Point2 &normal, double JxW, SubdomainQuadrature &quadrature) {
+  for (int k = 0; k < 2; ++k) {
+    quadrature.boundary_point[k].push_back(x[k]);
+    quadrature.boundary_normal[k].push_back(normal[k]);
+  }
+  quadrature.boundary_JxW.push_back(JxW);
 }
 
 } // namespace
@@ -70,6 +35,7 @@ void SubdomainQuadrature::clear() {
   for (int k = 0; k < 2; ++k) {
     point[k].clear();
     boundary_point[k].clear();
+    boundary_normal[k].clear();
   }
   JxW.clear();
   boundary_JxW.clear();
@@ -77,146 +43,289 @@ void SubdomainQuadrature::clear() {
   whole = true;
 }
 
-SubdomainRule::SubdomainRule(const Boundary &boundary, int n_radial) : boundary_(&boundary), n_radial_(n_radial) {
+/// Builds the rule of one disc after the other.
+struct SubdomainRule::Scratch {
+  CutDisc disc;
+  std::vector<std::size_t> near;
+  std::vector<Part> piece_parts;
+  std::vector<std::pair<std::size_t, Part>> parts;
+  std::vector<double> breaks;
+  std::vector<Wedge> wedges; ///< only the first n_wedges count
+  std::size_t n_wedges = 0;
+  AngularRule angular;
+  std::vector<double> radii;
+  std::vector<double> other_radii;
+  std::vector<double> splits;
+  std::vector<Meeting> meetings;
+
+  void add_whole_disc(int n, SubdomainQuadrature &quadrature) const;
+  void add_whole_circle(int n, SubdomainQuadrature &quadrature) const;
+  bool find_pieces(const Boundary &boundary);
+  void make_wedges(const Boundary &boundary, const Visibility *visibility);
+  void add_wedge(const Wedge &wedge, int n, SubdomainQuadrature &quadrature);
+  void add_boundary(std::size_t slot, const Part &part, bool any_hidden, int n, SubdomainQuadrature &quadrature);
+  void split_at_breaks(const SeenPiece &piece, const Part &part);
+  bool seen_inside_of(const BoundaryPiece &piece, double t);
+  void add_cuts(int n, SubdomainQuadrature &quadrature);
+  void add_cut(const Wedge &visible, const Wedge &hidden, double angle, double side, int n,
+               SubdomainQuadrature &quadrature);
+  void add_circle(int n, SubdomainQuadrature &quadrature) const;
+  void add_arc(double begin, double end, int n, SubdomainQuadrature &quadrature) const;
+  std::span<Wedge> all_wedges() { return std::span(wedges).first(n_wedges); }
+};
+
+SubdomainRule::SubdomainRule(const Boundary &boundary, int n_radial, const Visibility *visibility)
+    : boundary_(&boundary), visibility_(visibility && !visibility->convex() ? visibility : nullptr),
+      n_radial_(n_radial), scratch_(std::make_unique<Scratch>()) {
   if (n_radial < 1)
     throw std::invalid_argument("a subdomain needs at least one radial quadrature point");
 }
 
-void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const {
+SubdomainRule::~SubdomainRule() = default;
+SubdomainRule::SubdomainRule(SubdomainRule &&) noexcept = default;
+
+void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature,
+                          const SubdomainWanted &wanted) {
   quadrature.clear();
-  const double tolerance = boundary_->tolerance();
-  thread_local std::vector<std::size_t> near;
-  thread_local std::vector<double> breaks;
-  near.clear();
-  breaks.clear();
-  const auto pieces = boundary_->pieces();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto part = chord(pieces[i], centre, radius, tolerance);
-    if (!part)
-      continue;
-    near.push_back(i);
-    const Point2 along = minus(pieces[i].end, pieces[i].begin);
-    // Crossings of the circle and corners inside the disc are the ends of the chord.
-    for (const double t : {part->begin, part->end}) {
-      const Point2 to{pieces[i].begin[0] + t * along[0] - centre[0], pieces[i].begin[1] + t * along[1] - centre[1]};
-      if (std::hypot(to[0], to[1]) > tolerance)
-        breaks.push_back(angle_of(to));
-    }
-  }
-  if (near.empty()) {
-    add_whole_disc(centre, radius, quadrature);
+  auto &s = *scratch_;
+  s.disc.centre = centre;
+  s.disc.radius = radius;
+  s.disc.tolerance = boundary_->tolerance();
+  if (!s.find_pieces(*boundary_)) {
+    if (wanted.interior)
+      s.add_whole_disc(n_radial_, quadrature);
+    if (wanted.circle)
+      s.add_whole_circle(n_radial_, quadrature);
     return;
   }
   quadrature.whole = false;
-  std::sort(breaks.begin(), breaks.end());
-  // Break points of adjacent pieces coincide to the rounding of coordinates, and no more is merged:
-  // where a circle through a corner touches a piece there, two lie 1e-8 apart, and a wedge that
-  // began at the wrong one would be as much too wide.
-  const double same = 1e-15 * (10 + (std::abs(centre[0]) + std::abs(centre[1])) / radius);
-  breaks.erase(std::unique(breaks.begin(), breaks.end(), [&](double a, double b) { return b - a <= same; }),
-               breaks.end());
-  if (breaks.size() > 1 && breaks.front() + full_turn - breaks.back() <= same)
-    breaks.pop_back();
-  for (std::size_t w = 0; w < breaks.size(); ++w) {
-    const double end = w + 1 < breaks.size() ? breaks[w + 1] : breaks.front() + full_turn;
-    add_wedge(centre, radius, breaks[w], end, near, quadrature);
+  s.make_wedges(*boundary_, visibility_);
+  bool any_hidden = false;
+  for (const auto &wedge : s.all_wedges()) {
+    any_hidden = any_hidden || (visibility_ && wedge.any(Interval::hidden));
+    if (wanted.interior && wedge.any(Interval::visible))
+      s.add_wedge(wedge, n_radial_, quadrature);
   }
-  for (const std::size_t i : near)
-    add_boundary(centre, radius, i, quadrature);
+  for (const auto &[slot, part] : s.parts)
+    s.add_boundary(slot, part, any_hidden, n_radial_, quadrature);
+  if (any_hidden)
+    s.add_cuts(n_radial_, quadrature);
+  if (wanted.circle)
+    s.add_circle(n_radial_, quadrature);
 }
 
-void SubdomainRule::add_whole_disc(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const {
-  const auto &radial = linear_algebra::cached_gauss_legendre(n_radial_);
-  const auto &angular = linear_algebra::cached_gauss_legendre(4 * n_radial_);
-  for (std::size_t a = 0; a < angular.points.size(); ++a) {
-    const double angle = full_turn * angular.points[a];
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
+/// Fills disc.pieces and parts; false if no boundary comes into the disc.
+bool SubdomainRule::Scratch::find_pieces(const Boundary &boundary) {
+  disc.pieces.clear();
+  parts.clear();
+  boundary.pieces_within(disc.centre, disc.radius, near);
+  for (const std::size_t i : near) {
+    const auto &piece = boundary.pieces()[i];
+    piece_parts.clear();
+    append_parts_inside(piece, disc.centre, disc.radius, disc.tolerance, piece_parts);
+    if (piece_parts.empty())
+      continue;
+    for (const auto &part : piece_parts)
+      parts.emplace_back(disc.pieces.size(), part);
+    disc.pieces.emplace_back(piece, i, disc.centre, disc.tolerance);
+  }
+  return !parts.empty();
+}
+
+void SubdomainRule::Scratch::make_wedges(const Boundary &boundary, const Visibility *visibility) {
+  find_breaks(disc, parts, breaks);
+  n_wedges = breaks.size();
+  if (wedges.size() < n_wedges)
+    wedges.resize(n_wedges);
+  for (std::size_t w = 0; w < n_wedges; ++w) {
+    wedges[w].begin = breaks[w];
+    wedges[w].end = w + 1 < n_wedges ? breaks[w + 1] : breaks.front() + full_turn;
+    wedges[w].look(disc, boundary, visibility);
+  }
+}
+
+void SubdomainRule::Scratch::add_whole_disc(int n, SubdomainQuadrature &quadrature) const {
+  const auto &radial = linear_algebra::cached_gauss_legendre(n);
+  const auto &gauss = linear_algebra::cached_gauss_legendre(4 * n);
+  for (std::size_t a = 0; a < gauss.points.size(); ++a) {
+    const Point2 direction = direction_of(full_turn * gauss.points[a]);
     for (std::size_t q = 0; q < radial.points.size(); ++q) {
-      const double r = radius * radial.points[q];
-      quadrature.point[0].push_back(centre[0] + r * c);
-      quadrature.point[1].push_back(centre[1] + r * s);
-      quadrature.JxW.push_back(full_turn * angular.weights[a] * radius * radial.weights[q] * r);
+      const double r = disc.radius * radial.points[q];
+      quadrature.point[0].push_back(disc.centre[0] + r * direction[0]);
+      quadrature.point[1].push_back(disc.centre[1] + r * direction[1]);
+      quadrature.JxW.push_back(full_turn * gauss.weights[a] * disc.radius * radial.weights[q] * r);
     }
   }
 }
 
-void SubdomainRule::add_wedge(const Point2 &centre, double radius, double begin, double end,
-                              std::span<const std::size_t> pieces, SubdomainQuadrature &quadrature) const {
-  const double tolerance = boundary_->tolerance();
-  // Crossings of a ray with the pieces, nearest first, closed by the centre and the circle.
-  thread_local std::vector<double> radii;
-  const auto cast = [&](double angle) {
-    const Point2 direction{std::cos(angle), std::sin(angle)};
-    radii.assign(1, 0.0);
-    for (const std::size_t i : pieces)
-      if (const auto r = crossing(boundary_->pieces()[i], centre, direction, tolerance); r && *r < radius)
-        radii.push_back(*r);
-    radii.push_back(radius);
-    std::sort(radii.begin(), radii.end());
-    return direction;
-  };
-
-  // Between two break points every ray crosses the same pieces: the middle ray tells which of its
-  // intervals are inside.
-  const Point2 middle = cast(0.5 * (begin + end));
-  thread_local std::vector<bool> inside;
-  inside.clear();
-  for (std::size_t i = 0; i + 1 < radii.size(); ++i) {
-    const double r = 0.5 * (radii[i] + radii[i + 1]);
-    inside.push_back(boundary_->contains({centre[0] + r * middle[0], centre[1] + r * middle[1]}));
+/// n + 2 equispaced points: exact for trigonometric polynomials up to the degree n + 1.
+void SubdomainRule::Scratch::add_whole_circle(int n, SubdomainQuadrature &quadrature) const {
+  SubdomainQuadrature::Part part{PartKind::circle, 0, 0, quadrature.boundary_JxW.size(), 0};
+  for (int i = 0; i < n + 2; ++i) {
+    const Point2 direction = direction_of(full_turn * i / (n + 2));
+    add_boundary_point({disc.centre[0] + disc.radius * direction[0], disc.centre[1] + disc.radius * direction[1]},
+                       direction, full_turn * disc.radius / (n + 2), quadrature);
   }
-  if (std::none_of(inside.begin(), inside.end(), [](bool b) { return b; }))
-    return;
+  part.end = quadrature.boundary_JxW.size();
+  quadrature.parts.push_back(part);
+}
 
-  const double width = end - begin;
-  const int n_angular = 4 * n_radial_;
-  const auto &angular = linear_algebra::cached_gauss_legendre(n_angular);
-  const auto &radial = linear_algebra::cached_gauss_legendre(n_radial_);
+void SubdomainRule::Scratch::add_wedge(const Wedge &wedge, int n, SubdomainQuadrature &quadrature) {
+  make_angular_rule(disc, wedge, 4 * n, angular);
+  const auto &radial = linear_algebra::cached_gauss_legendre(n);
   for (std::size_t a = 0; a < angular.points.size(); ++a) {
-    const Point2 direction = cast(begin + width * angular.points[a]);
-    const std::size_t n_intervals = std::min(radii.size() - 1, inside.size());
-    for (std::size_t i = 0; i < n_intervals; ++i) {
+    const Point2 direction = direction_of(angular.points[a]);
+    wedge.radii(disc, direction, radii);
+    for (std::size_t i = 0; i < wedge.intervals.size(); ++i) {
       const double extent = radii[i + 1] - radii[i];
-      if (!inside[i] || extent <= 0)
+      if (wedge.intervals[i] != Interval::visible || extent <= 0)
         continue;
       for (std::size_t q = 0; q < radial.points.size(); ++q) {
         const double r = radii[i] + extent * radial.points[q];
-        quadrature.point[0].push_back(centre[0] + r * direction[0]);
-        quadrature.point[1].push_back(centre[1] + r * direction[1]);
-        quadrature.JxW.push_back(width * angular.weights[a] * extent * radial.weights[q] * r);
+        quadrature.point[0].push_back(disc.centre[0] + r * direction[0]);
+        quadrature.point[1].push_back(disc.centre[1] + r * direction[1]);
+        quadrature.JxW.push_back(angular.weights[a] * extent * radial.weights[q] * r);
       }
     }
   }
 }
 
-void SubdomainRule::add_boundary(const Point2 &centre, double radius, std::size_t piece,
-                                 SubdomainQuadrature &quadrature) const {
-  const auto &segment = boundary_->pieces()[piece];
-  const auto inside = chord(segment, centre, radius, boundary_->tolerance());
-  if (!inside)
-    return;
-  const double length = segment.length();
-  const auto &gauss = linear_algebra::cached_gauss_legendre(n_radial_);
-  const auto add_part = [&](double begin, double end) {
-    if ((end - begin) * length <= boundary_->tolerance())
-      return;
-    SubdomainQuadrature::BoundaryPart part;
-    part.id = segment.id;
-    part.normal = segment.normal();
-    part.begin = quadrature.boundary_JxW.size();
+/// Replaces `splits` by the parameters that the part is to be split at, its ends included: where it is nearest to the
+/// particle, and where the directions of break points meet it if something is hidden.
+void SubdomainRule::Scratch::split_at_breaks(const SeenPiece &piece, const Part &part) {
+  for (const double angle : breaks) {
+    const Point2 direction = direction_of(angle);
+    meetings.clear();
+    piece.append(direction, 0, meetings);
+    for (const auto &meeting : meetings) {
+      const double t = piece.parameter(direction, meeting.r);
+      if (t > part.begin && t < part.end)
+        splits.push_back(t);
+    }
+  }
+}
+
+/// Whether the domain beside the piece, at its parameter t, is visible from the centre.
+bool SubdomainRule::Scratch::seen_inside_of(const BoundaryPiece &piece, double t) {
+  const Point2 x = piece.point(t);
+  const Point2 normal = piece.normal(t);
+  const double step = 1e-7 * disc.radius;
+  const Point2 to{x[0] - step * normal[0] - disc.centre[0], x[1] - step * normal[1] - disc.centre[1]};
+  const double r = std::hypot(to[0], to[1]);
+  double angle = std::atan2(to[1], to[0]);
+  while (angle < breaks.front())
+    angle += full_turn;
+  for (const auto &wedge : all_wedges()) {
+    if (angle > wedge.end)
+      continue;
+    wedge.radii(disc, {to[0] / r, to[1] / r}, radii);
+    for (std::size_t i = 0; i < wedge.intervals.size(); ++i)
+      if (r <= radii[i + 1])
+        return wedge.intervals[i] == Interval::visible;
+    break;
+  }
+  return false;
+}
+
+void SubdomainRule::Scratch::add_boundary(std::size_t slot, const Part &part, bool any_hidden, int n,
+                                          SubdomainQuadrature &quadrature) {
+  const auto &seen = disc.pieces[slot];
+  const auto &piece = seen.piece();
+  const double length = piece.length();
+  const auto &gauss = linear_algebra::cached_gauss_legendre(n);
+  splits.assign({part.begin, part.end, std::clamp(piece.nearest(disc.centre), part.begin, part.end)});
+  if (any_hidden)
+    split_at_breaks(seen, part);
+  std::sort(splits.begin(), splits.end());
+  const auto add = [&](double begin, double end) {
+    SubdomainQuadrature::Part result{PartKind::boundary, piece.id, seen.index(), quadrature.boundary_JxW.size(), 0};
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
       const double t = begin + (end - begin) * gauss.points[q];
-      for (int k = 0; k < 2; ++k)
-        quadrature.boundary_point[k].push_back(segment.begin[k] + t * (segment.end[k] - segment.begin[k]));
-      quadrature.boundary_JxW.push_back((end - begin) * length * gauss.weights[q]);
+      add_boundary_point(piece.point(t), piece.normal(t), (end - begin) * length * gauss.weights[q], quadrature);
     }
-    part.end = quadrature.boundary_JxW.size();
-    quadrature.parts.push_back(part);
+    result.end = quadrature.boundary_JxW.size();
+    quadrature.parts.push_back(result);
   };
-  const double split = std::clamp(inside->nearest, inside->begin, inside->end);
-  add_part(inside->begin, split);
-  add_part(split, inside->end);
+  for (std::size_t k = 0; k + 1 < splits.size(); ++k) {
+    const double begin = splits[k];
+    const double end = splits[k + 1];
+    if ((end - begin) * length <= disc.tolerance || (any_hidden && !seen_inside_of(piece, 0.5 * (begin + end))))
+      continue;
+    const int n_arcs = piece.arc ? static_cast<int>(std::ceil((end - begin) * piece.sweep() / longest_arc)) : 1;
+    for (int i = 0; i < n_arcs; ++i)
+      add(begin + (end - begin) * i / n_arcs, begin + (end - begin) * (i + 1) / n_arcs);
+  }
+}
+
+void SubdomainRule::Scratch::add_cuts(int n, SubdomainQuadrature &quadrature) {
+  for (std::size_t w = 0; w < n_wedges; ++w) {
+    const auto &wedge = wedges[w];
+    const auto &next = wedges[(w + 1) % n_wedges];
+    add_cut(wedge, next, wedge.end, 1, n, quadrature);
+    add_cut(next, wedge, wedge.end, -1, n, quadrature);
+  }
+}
+
+/// The ray at `angle` between two wedges, where it is visible in one and inside but hidden in the other.
+/// @param side 1 if the hidden wedge lies counter-clockwise of the ray, -1 if not
+void SubdomainRule::Scratch::add_cut(const Wedge &visible, const Wedge &hidden, double angle, double side, int n,
+                                     SubdomainQuadrature &quadrature) {
+  if (!hidden.any(Interval::hidden))
+    return;
+  const Point2 direction = direction_of(angle);
+  visible.radii(disc, direction, radii);
+  hidden.radii(disc, direction, other_radii);
+  const auto &gauss = linear_algebra::cached_gauss_legendre(n);
+  for (std::size_t i = 0; i < visible.intervals.size(); ++i)
+    for (std::size_t j = 0; j < hidden.intervals.size(); ++j) {
+      const double begin = std::max(radii[i], other_radii[j]);
+      const double end = std::min(radii[i + 1], other_radii[j + 1]);
+      if (visible.intervals[i] != Interval::visible || hidden.intervals[j] != Interval::hidden ||
+          end - begin <= disc.tolerance)
+        continue;
+      SubdomainQuadrature::Part part{PartKind::cut, 0, 0, quadrature.boundary_JxW.size(), 0};
+      for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+        const double r = begin + (end - begin) * gauss.points[q];
+        add_boundary_point({disc.centre[0] + r * direction[0], disc.centre[1] + r * direction[1]},
+                           {-side * direction[1], side * direction[0]}, (end - begin) * gauss.weights[q], quadrature);
+      }
+      part.end = quadrature.boundary_JxW.size();
+      quadrature.parts.push_back(part);
+    }
+}
+
+/// The circle where its rays are visible up to it, neighbouring wedges together.
+void SubdomainRule::Scratch::add_circle(int n, SubdomainQuadrature &quadrature) const {
+  std::size_t first = 0; // a wedge after one that is not included
+  while (first < n_wedges && wedges[(first + n_wedges - 1) % n_wedges].intervals.back() == Interval::visible)
+    ++first;
+  if (first == n_wedges) { // all are, as around a small hole
+    add_whole_circle(n, quadrature);
+    return;
+  }
+  for (std::size_t k = 0; k < n_wedges;) {
+    const auto &wedge = wedges[(first + k++) % n_wedges];
+    if (wedge.intervals.back() != Interval::visible)
+      continue;
+    double width = wedge.end - wedge.begin;
+    for (; k < n_wedges && wedges[(first + k) % n_wedges].intervals.back() == Interval::visible; ++k)
+      width += wedges[(first + k) % n_wedges].end - wedges[(first + k) % n_wedges].begin;
+    const int n_arcs = static_cast<int>(std::ceil(width / (std::numbers::pi * (1 + 1e-9))));
+    for (int i = 0; i < n_arcs; ++i)
+      add_arc(wedge.begin + width * i / n_arcs, wedge.begin + width * (i + 1) / n_arcs, n, quadrature);
+  }
+}
+
+void SubdomainRule::Scratch::add_arc(double begin, double end, int n, SubdomainQuadrature &quadrature) const {
+  const auto &gauss = linear_algebra::cached_gauss_legendre(n);
+  SubdomainQuadrature::Part part{PartKind::circle, 0, 0, quadrature.boundary_JxW.size(), 0};
+  for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+    const Point2 direction = direction_of(begin + (end - begin) * gauss.points[q]);
+    add_boundary_point({disc.centre[0] + disc.radius * direction[0], disc.centre[1] + disc.radius * direction[1]},
+                       direction, (end - begin) * disc.radius * gauss.weights[q], quadrature);
+  }
+  part.end = quadrature.boundary_JxW.size();
+  quadrature.parts.push_back(part);
 }
 
 } // namespace meshless::domain

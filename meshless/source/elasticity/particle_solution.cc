@@ -1,36 +1,66 @@
 #include "meshless/elasticity/particle_solution.h"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
 
 namespace meshless::elasticity {
 
 ParticleSolution::ParticleSolution(std::shared_ptr<const cloud::Particles<2>> particles,
                                    std::shared_ptr<const basis::ShapeFunctions<2>> basis, DerivativeRule rule,
-                                   Material material, std::vector<double> coefficients)
-    : particles_(std::move(particles)), basis_(std::move(basis)), rule_(rule), material_(material),
+                                   std::shared_ptr<const Surroundings> surroundings, std::vector<double> coefficients)
+    : particles_(std::move(particles)), basis_(std::move(basis)), rule_(rule), surroundings_(std::move(surroundings)),
       coefficients_(std::move(coefficients)), search_(*particles_, basis_->support()) {}
 
-void ParticleSolution::displacement(std::span<const Point2> points, std::span<Vector2> values) const {
-  const basis::GroupedEvaluation<2> evaluation(*basis_, search_);
-  evaluation.visit(points, {.value = true}, [&](const auto &group) {
-    for (const std::size_t i : group.points)
-      values[i] = {0, 0};
-    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-      const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.candidates[j])];
-      const double *shape = group.values.value(j);
-      for (std::size_t p = 0; p < group.points.size(); ++p)
-        for (int k = 0; k < 2; ++k)
-          values[group.points[p]][k] += shape[p] * coefficient[k];
-    }
-  });
+void ParticleSolution::visit(std::span<const Point2> points, std::span<const int> regions, const basis::Wanted &wanted,
+                             const Visitor &visitor) const {
+  if (!regions.empty() && regions.size() != points.size())
+    throw std::invalid_argument("as many regions as points are needed, or none");
+  std::vector<std::vector<std::size_t>> members(surroundings_->n_regions());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    members.at(regions.empty() ? surroundings_->region_of(points[i]) : static_cast<std::size_t>(regions[i]))
+        .push_back(i);
+  std::vector<Point2> own;
+  std::vector<std::size_t> indices;
+  for (std::size_t r = 0; r < members.size(); ++r) {
+    own.clear();
+    for (const std::size_t i : members[r])
+      own.push_back(points[i]);
+    RegionFilter filter(*surroundings_, *particles_, r);
+    const basis::GroupedEvaluation<2> evaluation(*basis_, search_, surroundings_->simple() ? nullptr : &filter);
+    if (!own.empty())
+      evaluation.visit(own, wanted, [&](const auto &group) {
+        indices.clear();
+        for (const std::size_t i : group.points)
+          indices.push_back(members[r][i]);
+        visitor(group, r, indices);
+      });
+  }
 }
 
-void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2> values) const {
+void ParticleSolution::displacement(std::span<const Point2> points, std::span<Vector2> values,
+                                    std::span<const int> regions) const {
+  visit(points, regions, {.value = true},
+        [&](const auto &group, std::size_t, std::span<const std::size_t> group_points) {
+          for (const std::size_t i : group_points)
+            values[i] = {0, 0};
+          for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+            const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.candidates[j])];
+            const double *shape = group.values.value(j);
+            for (std::size_t p = 0; p < group_points.size(); ++p)
+              for (int k = 0; k < 2; ++k)
+                values[group_points[p]][k] += shape[p] * coefficient[k];
+          }
+        });
+}
+
+void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2> values,
+                              std::span<const int> regions) const {
   const bool direct = rule_ == DerivativeRule::direct;
   const basis::Wanted wanted{.gradient = direct, .differentiated_gradient = !direct};
-  const basis::GroupedEvaluation<2> evaluation(*basis_, search_);
-  evaluation.visit(points, wanted, [&](const auto &group) {
-    for (std::size_t p = 0; p < group.points.size(); ++p) {
+  visit(points, regions, wanted, [&](const auto &group, std::size_t region, std::span<const std::size_t> group_points) {
+    const auto &d = surroundings_->material(region);
+    for (std::size_t p = 0; p < group_points.size(); ++p) {
       std::array<double, 4> gradient{}; // u1,1 u1,2 u2,1 u2,2
       for (std::size_t j = 0; j < group.candidates.size(); ++j) {
         const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.candidates[j])];
@@ -40,9 +70,9 @@ void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2>
           gradient[2 + k] += row[p] * coefficient[1];
         }
       }
-      values[group.points[p]] = {material_.axial() * gradient[0] + material_.coupling() * gradient[3],
-                                 material_.coupling() * gradient[0] + material_.axial() * gradient[3],
-                                 material_.shear() * (gradient[1] + gradient[2])};
+      values[group_points[p]] = {d.axial() * gradient[0] + d.coupling() * gradient[3],
+                                 d.coupling() * gradient[0] + d.axial() * gradient[3],
+                                 d.shear() * (gradient[1] + gradient[2])};
     }
   });
 }

@@ -190,7 +190,9 @@ TEST(ParticleSolution, evaluates_the_field_of_its_coefficients) {
   const auto probes = sample_clouds::random_points<2>(200, {0, 0}, {1, 1}, 4);
   const auto expected = stress_of(material, {2, -3, -1, 5});
   for (const auto rule : {DerivativeRule::direct, DerivativeRule::differentiated}) {
-    const ParticleSolution solution(particles, basis, rule, material, coefficients);
+    const auto surroundings = std::make_shared<const Surroundings>(
+        std::vector<elasticity::Region>{{domain::rectangle({0, 0}, {1, 1}), material}});
+    const ParticleSolution solution(particles, basis, rule, surroundings, coefficients);
     std::vector<Vector2> u(probes.size(), Vector2{9, 9}); // is replaced
     std::vector<Stress2> s(probes.size());
     solution.displacement(probes, u);

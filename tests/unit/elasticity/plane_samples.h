@@ -57,7 +57,7 @@ inline constexpr Kinds rollers{{{fixed, loaded}, {loaded, loaded}, {loaded, fixe
 
 inline PlaneProblem rectangle_problem(const Point2 &low, const Point2 &high, const Material &material,
                                       const Exact &exact, const Kinds &kinds) {
-  PlaneProblem problem{domain::rectangle(low, high), material, {}, {}};
+  PlaneProblem problem{{{domain::rectangle(low, high), material}}, {}, {}};
   for (int id = 0; id < 4; ++id)
     problem.conditions[id] = {kinds[static_cast<std::size_t>(id)], field(exact.displacement),
                               traction_of(material, exact)};

@@ -291,17 +291,13 @@ TEST(SceneBadScene, MethodsThatAreNoList) {
 }
 
 TEST(SceneBadScene, TablesOfALaterVersionAreExplained) {
-  const std::string tail = " belongs to a geometry of one's own; this version solves the listed "
-                           "benchmarks only: beam, bar (name one with benchmark = \"...\" and remove "
-                           "this table)\n";
-  EXPECT_EQ(findings("schema = 1\n[geometry]\nfile = \"a.msh\"\n[[boundary]]\ngroup = \"b\"\n[[material]]\n"
+  const std::string tail = " belongs to a geometry of one's own (add [geometry] with file = \"...\", or remove this "
+                           "table)\n";
+  EXPECT_EQ(findings("schema = 1\nbenchmark = \"beam\"\n[[boundary]]\ngroup = \"b\"\n[[material]]\n"
                      "E = 1\n[[method]]\nname = \"fem\"\nlevels = [\"5 mm\"]\n"),
-            "beam.toml:2:2: error: geometry: the table 'geometry'" + tail +
-                "beam.toml:4:3: error: boundary: the table 'boundary'" + tail +
-                "beam.toml:6:3: error: material: several materials belong to a geometry of one's own; "
-                "this version solves the listed benchmarks only: beam, bar (write [material] and its "
-                "keys below)\n"
-                "");
+            "beam.toml:3:3: error: boundary: the table 'boundary'" + tail +
+                "beam.toml:5:3: error: material: several materials belong to a geometry of one's own (write [material] "
+                "and its keys below, or add [geometry] with file = \"...\")\n");
 }
 
 TEST(SceneBadScene, TablesThatAreNone) {

@@ -2,7 +2,7 @@
 
 #include "fem_reference/elasticity/material.h"
 #include "fem_reference/errors.h"
-#include "fem_reference/mesh/quadrilateral_mesh.h"
+#include "fem_reference/mesh/plane_mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -10,10 +10,11 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace fem_reference::elasticity {
+using mesh::PlaneMesh;
 using mesh::Point; // metres
-using mesh::QuadrilateralMesh;
 using Vector = std::array<double, 2>;
 
 /// Batch callback: fills values[k] at points[k], for example a displacement in m or a force in N/m^3.
@@ -43,8 +44,9 @@ struct BoundaryCondition {
 /// far from the origin loses only what its own coordinates have lost. Callbacks receive, and
 /// evaluation expects, the original coordinates.
 struct PlaneProblem {
-  QuadrilateralMesh mesh;
-  Material material;
+  PlaneMesh mesh;
+  /// One for each region of the mesh, all of one plane model. Regions that share nodes are perfectly bonded.
+  std::vector<Material> materials;
   /// One condition for each boundary id of the mesh.
   std::map<int, BoundaryCondition> boundary;
   /// N/m^3; may be empty: then nothing is computed for it.
@@ -57,7 +59,7 @@ enum class LinearSolver {
 };
 
 struct Options {
-  /// Q1 ... Q4: polynomial degree of displacement and geometry.
+  /// 1 to 4: polynomial degree of displacement and geometry, on triangles and quadrilaterals alike.
   int degree = 2;
   LinearSolver solver = LinearSolver::cholesky;
   /// Steps of iterative refinement with a residual computed cell by cell from the stress. One takes
@@ -100,14 +102,34 @@ public:
   /// Displacement in m at any points. Both spans have the same length.
   ///
   /// A point on the border of several cells takes the cell of lowest index. A point outside takes the
-  /// nearest cell, whose polynomial is continued by at most a quarter of the cell.
+  /// nearest cell, whose polynomial is continued by at most a quarter of the cell. Cells are those of the
+  /// isoparametric geometry: a point between a circle and the polynomial edge that stands for it counts as outside.
   void displacement(std::span<const Point> points, std::span<Vector> values) const;
 
   /// In-plane stress (sigma_11, sigma_22, sigma_12) in Pa, directly from the strain of the cell that
-  /// holds the point (same choice as in `displacement`), without smoothing.
+  /// holds the point (same choice as in `displacement`) and with the material of its region, without smoothing.
   void stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const;
 
-  /// How many points of the last call to `displacement` or `stress` lay outside of all cells, by
+  /// As `stress`, recovered: in each cell fitted by a polynomial of one degree less at the Gauss points, where it
+  /// is superconvergent, extrapolated to the nodes, averaged there over the cells of one region (Hinton & Campbell
+  /// 1974), and interpolated by the shape functions. Continuous within a region. The first call computes all nodes.
+  void recovered_stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const;
+
+  /// Resultants of the forces that hold the prescribed displacements, by boundary id, N per m of thickness: sums of
+  /// the nodal residuals K u - f of the system without essential conditions, over the prescribed components.
+  /// A component that several ids prescribe counts for the lowest, which gives its value. With the applied loads
+  /// they balance to rounding, on any mesh.
+  std::map<int, Vector> reactions() const;
+  /// Resultants of the tractions as integrated, by boundary id, of those with a `traction`; N per m.
+  const std::map<int, Vector> &applied_tractions() const;
+  /// Resultant of the body force as integrated, N per m.
+  Vector applied_body_force() const;
+  /// Integral of |t_1| + |t_2| and |b_1| + |b_2|, N per m: what resultants compare with.
+  double load_magnitude() const;
+  /// Half the integral of stress times strain, J per m.
+  double strain_energy() const;
+
+  /// How many points of the last evaluation lay outside of all cells, by
   /// more than 1e-10 of a cell.
   std::size_t points_outside() const;
 
@@ -115,11 +137,12 @@ private:
   std::shared_ptr<const Implementation> implementation_;
 };
 
-/// Solve by conforming isoparametric elements Qp with nodes at Gauss-Lobatto points and
-/// (p + 1)^2 Gauss points a cell; loads by p + 2 Gauss points a direction. Essential data are
-/// interpolated at the nodes and eliminated symmetrically.
+/// Solve by conforming isoparametric elements, Qp on quadrilaterals and Pp on triangles, with nodes at
+/// Gauss-Lobatto points on their sides. Stiffness by (p + 1)^2 Gauss points a quadrilateral and the rule of degree
+/// 2 p + 1 of Witherden and Vincent (2015) a triangle; loads by one order more. Essential data are interpolated at
+/// the nodes and eliminated symmetrically.
 ///
-/// Throws InvalidInput for an invalid mesh, degree or boundary condition, including essential
+/// Throws InvalidInput for an invalid mesh, material, degree or boundary condition, including essential
 /// conditions that leave rigid motions free; SolveFailure if the factorisation fails.
 PlaneSolution solve(const PlaneProblem &problem, const Options &options = {});
 } // namespace fem_reference::elasticity

@@ -19,7 +19,8 @@ inline double distance_squared(const Point<dim> &a, const Point<dim> &b) {
   return sum;
 }
 
-/// A cloud of particles: positions, smoothing lengths and, if a basis weighs with them, volumes; checked once.
+/// A cloud of particles: positions, smoothing lengths and, if a basis weighs with them, volumes, and if the domain
+/// has several, the region of every particle; checked once.
 template <int dim>
 class Particles {
 public:
@@ -28,9 +29,12 @@ public:
   /// @param positions in metres
   /// @param smoothing_lengths h of every particle in metres, as many as positions, all > 0
   /// @param volumes m / rho of every particle in m^dim, as many as positions, all > 0; or none
+  /// @param regions index >= 0 of the region of every particle, as many as positions; or none: all are in region 0.
+  ///   Particles of different regions may be at the same place: on an interface.
   /// @throws std::invalid_argument naming the particle for a non-finite position, a smoothing
-  ///   length or volume that is not positive, or two particles at the same place
-  Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths, std::vector<double> volumes = {});
+  ///   length or volume that is not positive, or two particles of a region at the same place
+  Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths, std::vector<double> volumes = {},
+            std::vector<int> regions = {});
 
   std::size_t size() const { return positions_.size(); }
   const Point<dim> &position(std::size_t i) const { return positions_[i]; }
@@ -40,6 +44,10 @@ public:
   bool has_volumes() const { return !volumes_.empty(); }
   /// m / rho in m^dim; empty if the cloud has none.
   std::span<const double> volumes() const { return volumes_; }
+  bool has_regions() const { return !regions_.empty(); }
+  /// Index of the region that the particle belongs to.
+  int region(std::size_t i) const { return regions_.empty() ? 0 : regions_[i]; }
+  std::span<const int> regions() const { return regions_; }
   double largest_smoothing_length() const { return largest_smoothing_length_; }
   /// True if all smoothing lengths are equal to rounding.
   bool uniform() const { return uniform_; }
@@ -48,6 +56,7 @@ private:
   std::vector<Point<dim>> positions_;
   std::vector<double> smoothing_lengths_;
   std::vector<double> volumes_;
+  std::vector<int> regions_;
   double largest_smoothing_length_ = 0;
   bool uniform_ = true;
 };

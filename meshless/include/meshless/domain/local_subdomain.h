@@ -1,8 +1,10 @@
 #pragma once
 
 #include "meshless/domain/boundary.h"
+#include "meshless/domain/visibility.h"
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,15 +16,23 @@ struct SubdomainQuadrature {
   std::array<std::vector<double>, 2> point;
   std::vector<double> JxW;
 
-  /// Points on one straight part of the boundary inside the disc.
-  struct BoundaryPart {
-    int id = 0;
-    Point2 normal{};
-    std::size_t begin = 0; ///< range in boundary_point and boundary_JxW
+  enum class PartKind {
+    boundary, ///< of the domain
+    cut,      ///< through the domain, where what lies behind it is hidden from the particle
+    circle,   ///< edge of the disc inside the domain
+  };
+  /// Points on one part of the subdomain's edge.
+  struct Part {
+    PartKind kind = PartKind::boundary;
+    int id = 0;            ///< of the boundary piece
+    std::size_t piece = 0; ///< its index
+    std::size_t begin = 0; ///< range in boundary_point, boundary_normal and boundary_JxW
     std::size_t end = 0;
   };
-  std::vector<BoundaryPart> parts;
+  std::vector<Part> parts;
   std::array<std::vector<double>, 2> boundary_point;
+  /// Unit normal, outward of the subdomain.
+  std::array<std::vector<double>, 2> boundary_normal;
   std::vector<double> boundary_JxW;
   /// True if no boundary comes into the disc.
   bool whole = true;
@@ -30,33 +40,48 @@ struct SubdomainQuadrature {
   void clear();
 };
 
-/// Gauss rule of n_radial x 4 n_radial points on discs, cut exactly by straight boundaries
+/// What is asked for; the rest is not computed. The boundary and cuts always are.
+struct SubdomainWanted {
+  bool interior = true;
+  bool circle = false;
+};
+
+/// Gauss rule of n_radial x 4 n_radial points on discs, cut exactly by lines and circular arcs
 /// (Batra & Zhang 2008, section 3.2.2, 'Evaluation of integrals').
 ///
 /// In polar coordinates about the particle the integrand is smooth only between break points: the
-/// directions in which the circle crosses the boundary and those of corners inside the disc. Each
-/// wedge between two break points gets Gauss points in the angle, 4 n_radial a full turn but at
-/// least n_radial a wedge, and along every ray n_radial Gauss points on each interval inside the
-/// domain (a subdomain at a concave corner may have several). Boundary pieces are split where they
-/// are nearest to the particle, n_radial points a part. With that the identity
-/// integral of W,j = boundary integral of W n_j holds to the accuracy of the Gauss rule.
+/// directions in which the circle crosses the boundary, those of corners inside the disc, and those of
+/// tangents to an arc. Each wedge between two break points gets 4 n_radial Gauss points in the angle, and
+/// along every ray n_radial Gauss points on each interval inside the domain (a subdomain at a concave corner
+/// or beside a hole may have several).
+///
+/// The distance to an arc seen from outside of its circle has a square root at the tangent direction theta_t. A
+/// wedge that ends there, or close to it, is integrated over s with theta = theta_t + s^2: the distance is
+/// then a smooth function of s and Gauss points converge as fast as elsewhere.
+///
+/// Boundary pieces are split where they are nearest to the particle and into arcs of a radian at most, n_radial points
+/// a part. With that the identity integral of W,j = boundary integral of W n_j holds to the accuracy of the Gauss rule.
+///
+/// With a visibility, what is hidden from the particle is left out; where a visible wedge lies beside a hidden
+/// one inside the domain, the ray between them becomes part of the subdomain's edge, so that the identity remains true.
 class SubdomainRule {
 public:
+  /// @param boundary kept by reference
   /// @param n_radial nG >= 1
-  SubdomainRule(const Boundary &boundary, int n_radial);
+  /// @param visibility kept by reference; null: everything is visible
+  SubdomainRule(const Boundary &boundary, int n_radial, const Visibility *visibility = nullptr);
+  ~SubdomainRule();
+  SubdomainRule(SubdomainRule &&) noexcept;
 
   /// Replaces `quadrature` by the rule of the disc around `centre`, reusing its storage.
-  void build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const;
+  void build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature, const SubdomainWanted &wanted = {});
 
 private:
   struct Scratch;
-  void add_whole_disc(const Point2 &centre, double radius, SubdomainQuadrature &quadrature) const;
-  void add_wedge(const Point2 &centre, double radius, double begin, double end, std::span<const std::size_t> pieces,
-                 SubdomainQuadrature &quadrature) const;
-  void add_boundary(const Point2 &centre, double radius, std::size_t piece, SubdomainQuadrature &quadrature) const;
-
   const Boundary *boundary_;
+  const Visibility *visibility_;
   int n_radial_;
+  std::unique_ptr<Scratch> scratch_;
 };
 
 } // namespace meshless::domain

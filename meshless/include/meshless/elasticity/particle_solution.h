@@ -3,7 +3,7 @@
 #include "meshless/basis/grouped_evaluation.h"
 #include "meshless/basis/shape_functions.h"
 #include "meshless/cloud/candidate_search.h"
-#include "meshless/elasticity/plane_problem.h"
+#include "meshless/elasticity/surroundings.h"
 
 #include <memory>
 #include <span>
@@ -31,15 +31,18 @@ class ParticleSolution {
 public:
   /// @param coefficients u1, u2 of every particle, interleaved, m
   ParticleSolution(std::shared_ptr<const cloud::Particles<2>> particles,
-                   std::shared_ptr<const basis::ShapeFunctions<2>> basis, DerivativeRule rule, Material material,
-                   std::vector<double> coefficients);
+                   std::shared_ptr<const basis::ShapeFunctions<2>> basis, DerivativeRule rule,
+                   std::shared_ptr<const Surroundings> surroundings, std::vector<double> coefficients);
 
   /// Displacement at points, m.
-  void displacement(std::span<const Point2> points, std::span<Vector2> values) const;
+  /// @param regions of every point, for points on an interface; if empty each is taken to be in the first region that
+  ///   it lies in
+  void displacement(std::span<const Point2> points, std::span<Vector2> values, std::span<const int> regions = {}) const;
   /// Stress at points, Pa, with the derivatives that the method itself uses.
-  void stress(std::span<const Point2> points, std::span<Stress2> values) const;
+  void stress(std::span<const Point2> points, std::span<Stress2> values, std::span<const int> regions = {}) const;
 
   const cloud::Particles<2> &particles() const { return *particles_; }
+  const Surroundings &surroundings() const { return *surroundings_; }
   std::span<const double> coefficients() const { return coefficients_; }
 
   // Figures of the solve.
@@ -49,10 +52,16 @@ public:
   double reciprocal_condition = 0;
 
 private:
+  using Visitor = std::function<void(const basis::GroupedEvaluation<2>::Group &, std::size_t region,
+                                     std::span<const std::size_t> points)>;
+  /// Visits all points, those of one region after those of another.
+  void visit(std::span<const Point2> points, std::span<const int> regions, const basis::Wanted &wanted,
+             const Visitor &visitor) const;
+
   std::shared_ptr<const cloud::Particles<2>> particles_;
   std::shared_ptr<const basis::ShapeFunctions<2>> basis_;
   DerivativeRule rule_;
-  Material material_;
+  std::shared_ptr<const Surroundings> surroundings_;
   std::vector<double> coefficients_;
   cloud::CandidateSearch<2> search_;
 };

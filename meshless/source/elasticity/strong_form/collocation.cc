@@ -1,11 +1,14 @@
 #include "meshless/elasticity/strong_form/collocation.h"
 
+#include "../equations.h"
+
 #include "meshless/linear_algebra/sparse_lu.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,21 +18,34 @@ namespace {
 
 using linear_algebra::Stopwatch;
 
-/// What each particle's two rows are: inside, nothing is prescribed.
-struct Rows {
-  std::vector<bool> interior;
-  std::vector<std::array<RowCondition, 2>> conditions;
-  std::vector<std::array<double, 2>> right_hand_side;
+enum class RowKind {
+  interior, ///< equilibrium
+  boundary, ///< what is prescribed there
+  follows,  ///< on an interface: the displacement is that of the other region
+  balance,  ///< on an interface: the traction is that of the other region
 };
 
-double prescribed(const PlaneProblem &problem, const RowCondition &row, const Point2 &point) {
-  const auto &piece = problem.boundary.pieces()[row.piece];
-  const auto &condition = problem.conditions.at(piece.id);
+/// What one particle's two rows are.
+struct Rows {
+  RowKind kind = RowKind::interior;
+  std::array<RowCondition, 2> conditions{};
+  std::size_t other_region = 0; ///< across the interface
+  std::size_t piece = 0;        ///< of the interface
+  std::array<double, 2> right_hand_side{};
+};
+
+Vector2 normal_at(const PlaneProblem &problem, std::size_t region, std::size_t piece, const Point2 &point) {
+  const auto &p = problem.regions[region].boundary.pieces()[piece];
+  return p.normal(p.nearest(point));
+}
+
+double prescribed(const PlaneProblem &problem, std::size_t region, const RowCondition &row, const Point2 &point) {
+  const auto &condition = problem.conditions.at(problem.regions[region].boundary.pieces()[row.piece].id);
   Vector2 value{};
   if (row.kind == ConditionKind::displacement)
     condition.displacement({&point, 1}, {&value, 1});
   else if (condition.traction) {
-    const Vector2 normal = piece.normal(piece.nearest(point));
+    const Vector2 normal = normal_at(problem, region, row.piece, point);
     condition.traction({&point, 1}, {&normal, 1}, {&value, 1});
   }
   return value[static_cast<std::size_t>(row.component)];
@@ -45,23 +61,44 @@ const CornerRule *rule_at(const std::vector<CornerRule> &rules, const Point2 &po
   return nullptr;
 }
 
-Rows prepare_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
-                  const std::vector<CornerRule> &rules) {
-  const std::size_t n = particles.size();
-  Rows rows{std::vector<bool>(n), std::vector<std::array<RowCondition, 2>>(n), std::vector<std::array<double, 2>>(n)};
-  std::vector<bool> used(rules.size());
-  std::vector<std::size_t> inside;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto pieces = problem.boundary.pieces_at(particles.position(i));
-    rows.interior[i] = pieces.empty();
-    if (pieces.empty()) {
-      inside.push_back(i);
+/// Where an interface meets the outer boundary the side that follows follows, the other does what is prescribed.
+Rows rows_at(const PlaneProblem &problem, const Interfaces &interfaces, std::size_t region, const Point2 &point,
+             const std::vector<CornerRule> &rules, std::vector<bool> &used) {
+  const auto &boundary = problem.regions[region].boundary;
+  Rows rows;
+  std::vector<std::size_t> outer;
+  for (const std::size_t piece : boundary.pieces_at(point)) {
+    if (boundary.pieces()[piece].id != interface_id) {
+      outer.push_back(piece);
       continue;
     }
-    const CornerRule *rule = rule_at(rules, particles.position(i), problem.boundary.tolerance(), used);
-    rows.conditions[i] = conditions_at(problem, pieces, rule);
-    for (std::size_t k = 0; k < 2; ++k)
-      rows.right_hand_side[i][k] = prescribed(problem, rows.conditions[i][k], particles.position(i));
+    const auto &side = interfaces.at(region, piece);
+    if (rows.kind == RowKind::follows)
+      continue;
+    rows.kind = side.follows ? RowKind::follows : RowKind::balance;
+    rows.other_region = side.region;
+    rows.piece = piece;
+  }
+  if (outer.empty() || rows.kind == RowKind::follows)
+    return rows;
+  rows.kind = RowKind::boundary;
+  rows.conditions = conditions_at(problem, region, point, outer, rule_at(rules, point, boundary.tolerance(), used));
+  for (std::size_t k = 0; k < 2; ++k)
+    rows.right_hand_side[k] = prescribed(problem, region, rows.conditions[k], point);
+  return rows;
+}
+
+std::vector<Rows> prepare_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                               const std::vector<CornerRule> &rules) {
+  const Interfaces interfaces(problem.regions);
+  std::vector<bool> used(rules.size());
+  std::vector<Rows> rows;
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    rows.push_back(rows_at(problem, interfaces, static_cast<std::size_t>(particles.region(i)), particles.position(i),
+                           rules, used));
+    if (rows.back().kind == RowKind::interior)
+      inside.push_back(i);
   }
   for (std::size_t r = 0; r < rules.size(); ++r)
     if (!used[r])
@@ -74,67 +111,127 @@ Rows prepare_rows(const PlaneProblem &problem, const cloud::Particles<2> &partic
     std::vector<Vector2> force(points.size());
     problem.body_force(points, force);
     for (std::size_t k = 0; k < inside.size(); ++k)
-      rows.right_hand_side[inside[k]] = {-force[k][0], -force[k][1]};
+      rows[inside[k]].right_hand_side = {-force[k][0], -force[k][1]};
   }
   return rows;
 }
 
 using Values = basis::ShapeFunctionValues<2>;
 
-/// Coefficients of u1 and u2 of candidate j in one row at point p of a batch.
-std::array<double, 2> equilibrium(const Material &d, const Values &values, std::size_t j, std::size_t p,
-                                  int component) {
-  const double xx = values.hessian(0, j)[p];
-  const double xy = values.hessian(1, j)[p];
-  const double yy = values.hessian(2, j)[p];
-  const double mixed = (d.coupling() + d.shear()) * xy;
-  if (component == 0)
-    return {d.axial() * xx + d.shear() * yy, mixed};
-  return {mixed, d.shear() * xx + d.axial() * yy};
-}
-
-std::array<double, 2> traction(const Material &d, const Values &values, std::size_t j, std::size_t p, int component,
-                               const Vector2 &normal) {
-  const double x = values.gradient(0, j)[p];
-  const double y = values.gradient(1, j)[p];
-  const auto [n1, n2] = normal;
-  if (component == 0)
-    return {d.axial() * x * n1 + d.shear() * y * n2, d.coupling() * y * n1 + d.shear() * x * n2};
-  return {d.shear() * y * n1 + d.coupling() * x * n2, d.shear() * x * n1 + d.axial() * y * n2};
-}
-
-/// The two rows of one particle, as columns and entries.
-struct ParticleRows {
-  std::vector<std::int64_t> columns;
-  std::array<std::vector<double>, 2> entries;
+/// The two rows of one particle: entries of u1 and u2 of a candidate in both.
+struct Entry {
+  std::int64_t column; ///< of u1
+  std::array<std::array<double, 2>, 2> rows;
 };
+using ParticleRows = std::vector<Entry>;
 
-ParticleRows rows_of(const PlaneProblem &problem, const Rows &rows, std::size_t particle, std::size_t p,
-                     const basis::GroupedEvaluation<2>::Group &group) {
-  ParticleRows result;
-  for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-    if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
-        group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
-      continue; // outside the support of this particle
-    const std::int64_t column = 2 * std::int64_t{group.candidates[j]};
-    result.columns.insert(result.columns.end(), {column, column + 1});
-    for (std::size_t i = 0; i < 2; ++i) {
-      std::array<double, 2> entry{};
-      if (rows.interior[particle])
-        entry = equilibrium(problem.material, group.values, j, p, static_cast<int>(i));
-      else {
-        const auto &row = rows.conditions[particle][i];
-        if (row.kind == ConditionKind::displacement)
-          entry[static_cast<std::size_t>(row.component)] = group.values.value(j)[p];
-        else
-          entry = traction(problem.material, group.values, j, p, row.component,
-                           problem.boundary.pieces()[row.piece].normal());
-      }
-      result.entries[i].insert(result.entries[i].end(), entry.begin(), entry.end());
+/// Rows of all particles, by what they are made of.
+class Collocation {
+public:
+  Collocation(const PlaneProblem &problem, const cloud::Particles<2> &particles, std::vector<Rows> rows)
+      : problem_(problem), particles_(particles), rows_(std::move(rows)), entries_(particles.size()) {}
+
+  /// Adds the shape functions of the particle's own region, at point p of a batch.
+  void add_own(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
+    const auto &material = problem_.regions[region(particle)].material;
+    const auto &rows = rows_[particle];
+    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+      if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
+          group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
+        continue; // outside the support of this particle
+      Entry entry{2 * std::int64_t{group.candidates[j]}, {}};
+      for (std::size_t i = 0; i < 2; ++i)
+        entry.rows[i] = own_row(rows, material, particle, i, group.values, j, p);
+      entries_[particle].push_back(entry);
     }
   }
-  return result;
-}
+
+  /// Subtracts those of the region across the interface.
+  void add_other(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
+    const auto &rows = rows_[particle];
+    const auto &material = problem_.regions[rows.other_region].material;
+    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+      Entry entry{2 * std::int64_t{group.candidates[j]}, {}};
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (rows.kind == RowKind::follows)
+          entry.rows[i][i] = -group.values.value(j)[p];
+        else {
+          entry.rows[i] = traction(material, group.values, j, p, static_cast<int>(i), normal(particle, rows.piece));
+          for (double &x : entry.rows[i])
+            x = -x;
+        }
+      }
+      entries_[particle].push_back(entry);
+    }
+  }
+
+  /// Particles whose rows have shape functions of the region `other` in them; particles of the region `own`.
+  std::vector<std::size_t> across(std::size_t other) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if ((rows_[i].kind == RowKind::follows || rows_[i].kind == RowKind::balance) && rows_[i].other_region == other)
+        found.push_back(i);
+    return found;
+  }
+  std::vector<std::size_t> members(std::size_t own) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (region(i) == own)
+        found.push_back(i);
+    return found;
+  }
+
+  void append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+    std::vector<std::int64_t> columns;
+    std::vector<double> values;
+    for (std::size_t particle = 0; particle < entries_.size(); ++particle) {
+      auto &entries = entries_[particle];
+      std::sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) { return a.column < b.column; });
+      for (std::size_t i = 0; i < 2; ++i) {
+        columns.clear();
+        values.clear();
+        for (const auto &entry : entries) {
+          columns.insert(columns.end(), {entry.column, entry.column + 1});
+          values.insert(values.end(), entry.rows[i].begin(), entry.rows[i].end());
+        }
+        matrix.append_row(columns, values);
+        right_hand_side.push_back(rows_[particle].right_hand_side[i]);
+      }
+    }
+  }
+
+private:
+  std::size_t region(std::size_t particle) const { return static_cast<std::size_t>(particles_.region(particle)); }
+  Vector2 normal(std::size_t particle, std::size_t piece) const {
+    return normal_at(problem_, region(particle), piece, particles_.position(particle));
+  }
+
+  std::array<double, 2> own_row(const Rows &rows, const Material &material, std::size_t particle, std::size_t i,
+                                const Values &values, std::size_t j, std::size_t p) const {
+    std::array<double, 2> value{};
+    switch (rows.kind) {
+    case RowKind::interior:
+      return equilibrium(material, values, j, p, static_cast<int>(i));
+    case RowKind::follows:
+      value[i] = values.value(j)[p];
+      return value;
+    case RowKind::balance:
+      return traction(material, values, j, p, static_cast<int>(i), normal(particle, rows.piece));
+    case RowKind::boundary:
+      break;
+    }
+    const auto &row = rows.conditions[i];
+    if (row.kind == ConditionKind::traction)
+      return traction(material, values, j, p, row.component, normal(particle, row.piece));
+    value[static_cast<std::size_t>(row.component)] = values.value(j)[p];
+    return value;
+  }
+
+  const PlaneProblem &problem_;
+  const cloud::Particles<2> &particles_;
+  std::vector<Rows> rows_;
+  std::vector<ParticleRows> entries_;
+};
 
 } // namespace
 
@@ -142,35 +239,45 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
                        const std::vector<CornerRule> &corner_rules) {
   problem.check();
-  problem.require_inside(particles->positions());
+  problem.require_inside(*particles);
   SolveSeconds seconds;
   Stopwatch watch;
+  const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
   const std::size_t n = particles->size();
   const cloud::CandidateSearch<2> search(*particles, basis->support());
   seconds.neighbours = watch.lap();
-  const Rows rows = prepare_rows(problem, *particles, corner_rules);
+  Collocation collocation(problem, *particles, prepare_rows(problem, *particles, corner_rules));
   seconds.assembly = watch.lap();
 
-  // Groups come in the order of cells, rows must follow the particles: keep them until all are there.
-  std::vector<ParticleRows> particle_rows(n);
-  const basis::GroupedEvaluation<2> evaluation(*basis, search);
-  evaluation.visit(
-      particles->positions(), {.value = true, .gradient = true, .hessian = true},
-      [&](const auto &group) {
-        seconds.basis += watch.lap();
-        for (std::size_t p = 0; p < group.points.size(); ++p)
-          particle_rows[group.points[p]] = rows_of(problem, rows, group.points[p], p, group);
-        seconds.assembly += watch.lap();
-      },
-      "particle");
+  // Groups come in the order of cells, rows must follow the particles: they are kept until all are there.
+  std::vector<Point2> points;
+  for (std::size_t r = 0; r < problem.regions.size(); ++r) {
+    RegionFilter filter(*surroundings, *particles, r);
+    const basis::GroupedEvaluation<2> evaluation(*basis, search, surroundings->simple() ? nullptr : &filter);
+    const auto visit = [&](const std::vector<std::size_t> &members, const basis::Wanted &wanted, auto &&add) {
+      points.clear();
+      for (const std::size_t i : members)
+        points.push_back(particles->position(i));
+      if (!points.empty())
+        evaluation.visit(
+            points, wanted,
+            [&](const auto &group) {
+              seconds.basis += watch.lap();
+              for (std::size_t p = 0; p < group.points.size(); ++p)
+                add(members[group.points[p]], p, group);
+              seconds.assembly += watch.lap();
+            },
+            "particle");
+    };
+    visit(collocation.members(r), {.value = true, .gradient = true, .hessian = true},
+          [&](std::size_t i, std::size_t p, const auto &group) { collocation.add_own(i, p, group); });
+    visit(collocation.across(r), {.value = true, .gradient = true},
+          [&](std::size_t i, std::size_t p, const auto &group) { collocation.add_other(i, p, group); });
+  }
   linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
   std::vector<double> right_hand_side;
   right_hand_side.reserve(2 * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
-      matrix.append_row(particle_rows[i].columns, particle_rows[i].entries[k]);
-      right_hand_side.push_back(rows.right_hand_side[i][k]);
-    }
+  collocation.append_rows(matrix, right_hand_side);
   const auto divisors = matrix.equilibrate_rows();
   for (std::size_t row = 0; row < divisors.size(); ++row)
     right_hand_side[row] /= divisors[row];
@@ -179,7 +286,7 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   seconds.solve = watch.lap();
 
   const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
-  ParticleSolution solution(std::move(particles), std::move(basis), DerivativeRule::direct, problem.material,
+  ParticleSolution solution(std::move(particles), std::move(basis), DerivativeRule::direct, surroundings,
                             std::move(lu.solution));
   solution.seconds = seconds;
   solution.nonzeros = matrix.nonzeros();

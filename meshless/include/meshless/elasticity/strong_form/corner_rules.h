@@ -28,11 +28,12 @@ struct RowCondition {
   ConditionKind kind;
   /// Component of displacement or traction.
   int component;
-  /// Piece whose data and normal hold.
+  /// Piece of the region's boundary whose data and normal hold.
   std::size_t piece;
 };
 
-/// The rows of a particle that lies on the given pieces.
+/// The rows of a particle of the region that lies at the point, on the given pieces of its boundary, none of them of an
+/// interface. Normals are those at the point.
 ///
 /// On one piece: its own two conditions. At a corner without a rule: essential conditions first,
 /// component by component; a component without one takes the traction of the piece whose normal is
@@ -42,7 +43,7 @@ struct RowCondition {
 /// With a rule: u1, u2 need a piece on which that component is prescribed; t1, t2 one on which the
 /// traction component is; s11, s22 and s12 a piece normal to an axis with that traction component.
 /// @throws std::invalid_argument if the rule asks for what no piece prescribes, or twice the same
-std::array<RowCondition, 2> conditions_at(const PlaneProblem &problem, std::span<const std::size_t> pieces,
-                                          const CornerRule *rule);
+std::array<RowCondition, 2> conditions_at(const PlaneProblem &problem, std::size_t region, const Point2 &point,
+                                          std::span<const std::size_t> pieces, const CornerRule *rule);
 
 } // namespace meshless::elasticity::strong_form

@@ -5,17 +5,38 @@
 #include "meshless/kernels/kernel_table.h"
 
 #include <memory>
+#include <optional>
 
 namespace meshless::elasticity::weak_form {
+
+/// Which local subdomains are used.
+enum class Subdomains {
+  whole, ///< of the radius test_radius h_I, cut by the boundary (Batra & Zhang 2008)
+  /// A particle inside has a disc that reaches no farther than the boundary; one on the boundary a disc that reaches
+  /// no farther than another part of the boundary across the domain. On irregular clouds a particle may lie much closer
+  /// to the boundary than its h: its cut disc would be all but that of a particle on the boundary, and the distance to
+  /// the boundary as seen from it a function that Gauss points integrate badly.
+  shrunk,
+};
+
+/// The rows of particles inside.
+enum class InteriorRows {
+  weak,
+  collocated, ///< equilibrium at the particle, as in the strong form; boundary rows remain weak
+};
 
 /// Parameters of the meshless local Petrov-Galerkin method (MLPG), Batra & Zhang 2008, section 3.2.
 struct Parameters {
   DerivativeRule derivatives = DerivativeRule::direct; ///< direct: weak1, differentiated: weak2
-  /// Test function W_I; it must vanish at the edge of its support.
-  kernels::Kernel test_function = kernels::Gauss(1.0);
+  /// Test function W_I; it must vanish at the edge of its support. Empty: the Heaviside function W_I = 1 (MLPG5, Atluri
+  /// & Shen 2002), for which the weak form has integrals over the edge of the subdomain alone.
+  std::optional<kernels::Kernel> test_function = kernels::Gauss(1.0);
   /// Radius of the local subdomain in units of h_I: the kernel is stretched so that its support ends there.
   double test_radius = 1;
-  /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part.
+  Subdomains subdomains = Subdomains::whole;
+  InteriorRows interior_rows = InteriorRows::weak;
+  /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part; with the Heaviside function nG + 2 on a
+  /// whole circle, nG on every arc of one.
   int quadrature_points = 10;
   /// alpha / (E0 / L): the penalty on essential conditions over plane modulus and length.
   double penalty = 1e5;
@@ -24,10 +45,16 @@ struct Parameters {
 };
 
 /// Solves the problem by the weak form (3.19) on the local subdomains of all particles:
-///   int sigma_ij W,j + alpha int_u u_i W - int_u sigma_ij n_j W
+///   int sigma_ij W,j + alpha int_u u_i W - int_u sigma_ij n_j W - int_c sigma_ij n_j W
 ///     = int_t t_i W + alpha int_u ubar_i W + int b_i W,
 /// where int_u and int_t run over the parts of the boundary on which component i of displacement
-/// or traction is prescribed: conditions are mixed per component.
+/// or traction is prescribed (conditions are mixed per component), and int_c over what else W does not vanish on: cuts
+/// through the domain, where what lies behind is hidden (domain::Visibility), and with the Heaviside function the
+/// circle.
+///
+/// Shape functions at the points of a subdomain are made of particles of its own region that its particle sees. On an
+/// interface the displacement of the softer region a follows that of the other, b (see Interfaces): rows of a get
+///   alpha int (u_a - u_b) W - int sigma_a n_a W, those of b - int sigma_a n_b W.
 ///
 /// Rows are divided by their largest entry before the sparse LU.
 ///

@@ -1,4 +1,4 @@
-#include "comparisons/benchmarks/function_approximation/expression.h"
+#include "comparisons/scene/expression.h"
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace comparisons::benchmarks::function_approximation {
+namespace comparisons::scene {
 
 namespace {
 
@@ -93,4 +93,4 @@ double Expression::second(const std::array<double, 3> &point, int k, int l) cons
   return sum / (step * step);
 }
 
-} // namespace comparisons::benchmarks::function_approximation
+} // namespace comparisons::scene

@@ -4,9 +4,10 @@
 #include <memory>
 #include <string>
 
-namespace comparisons::benchmarks::function_approximation {
+namespace comparisons::scene {
 
-/// A function of x, y, z given as an expression ("sin(8*(1-x))/sin(8)"), with its derivatives.
+/// A function of x, y, z (each where there are that many dimensions) and pi, given as an expression
+/// ("sin(8*(1-x))/sin(8)"), with its derivatives.
 ///
 /// Derivatives are central differences of eighth order with a step of 1/64: for a smooth function
 /// their error is near 1e-13 and 1e-11 of its size, far below the errors that are measured with them.
@@ -30,4 +31,4 @@ private:
   std::string text_;
 };
 
-} // namespace comparisons::benchmarks::function_approximation
+} // namespace comparisons::scene

@@ -1,0 +1,24 @@
+// A quarter of a square plate with an elliptic hole of the semi-axes 5 (in x) and 1 (in y).
+a = 5;
+b = 1;
+side = 12.5;
+tip = b * b / a;   // radius of curvature at (a, 0), where the stress is largest
+Point(1) = {0, 0, 0};
+Point(2) = {a, 0, 0, tip / 5};
+Point(3) = {side, 0, 0, side / 8};
+Point(4) = {side, side, 0, side / 8};
+Point(5) = {0, side, 0, side / 8};
+Point(6) = {0, b, 0, b / 3};
+Line(1) = {2, 3};
+Line(2) = {3, 4};
+Line(3) = {4, 5};
+Line(4) = {5, 6};
+Ellipse(5) = {6, 1, 2, 2};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Physical Curve("x_axis") = {1};
+Physical Curve("right") = {2};
+Physical Curve("top") = {3};
+Physical Curve("y_axis") = {4};
+Physical Curve("hole") = {5};
+Physical Surface("plate") = {1};

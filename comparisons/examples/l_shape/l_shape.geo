@@ -1,0 +1,19 @@
+// The square from -1 to 1 without its third quadrant.
+lc = 0.2;
+Point(1) = {0, 0, 0, lc / 10};
+Point(2) = {0, -1, 0, lc};
+Point(3) = {1, -1, 0, lc};
+Point(4) = {1, 1, 0, lc};
+Point(5) = {-1, 1, 0, lc};
+Point(6) = {-1, 0, 0, lc};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Physical Curve("faces") = {1, 6};
+Physical Curve("outer") = {2, 3, 4, 5};
+Physical Surface("plate") = {1};

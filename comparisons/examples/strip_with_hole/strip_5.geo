@@ -1,0 +1,26 @@
+// A quarter of a strip of width 1 and length 5 with a round hole of diameter 0.5 in its middle.
+r = 0.25;
+lc = 0.125;
+Point(1) = {0, 0, 0};
+Point(2) = {r, 0, 0, r / 2.5};
+Point(3) = {2.5, 0, 0, 2 * lc};
+Point(4) = {2.5, 0.5, 0, 2 * lc};
+Point(5) = {0, 0.5, 0, lc};
+Point(6) = {0, r, 0, r / 5};
+Point(7) = {0.75, 0, 0, lc};
+Point(8) = {0.75, 0.5, 0, lc};
+Line(1) = {2, 7};
+Line(2) = {7, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 8};
+Line(5) = {8, 5};
+Line(6) = {5, 6};
+Circle(7) = {6, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7};
+Plane Surface(1) = {1};
+Physical Curve("x_axis") = {1, 2};
+Physical Curve("end") = {3};
+Physical Curve("side") = {4, 5};
+Physical Curve("y_axis") = {6};
+Physical Curve("hole") = {7};
+Physical Surface("strip") = {1};

@@ -1,0 +1,100 @@
+#include "comparisons/metrics/force_balance.h"
+
+#include "comparisons/problems/boundary_quadrature.h"
+
+#include <cmath>
+#include <vector>
+
+namespace comparisons::metrics {
+
+namespace {
+
+using Force = Equilibrium::Force;
+using problems::Point2;
+using problems::Vector2;
+
+/// Integral of the prescribed traction over the points of one boundary id.
+Force applied(const problems::BoundaryCondition &condition, const problems::BoundaryQuadrature &points) {
+  Force force{};
+  if (!condition.traction)
+    return force;
+  std::vector<Vector2> values(points.points.size());
+  condition.traction(points.points, points.normals, values);
+  for (std::size_t q = 0; q < values.size(); ++q)
+    for (std::size_t k = 0; k < 2; ++k)
+      force[k] += points.weights[q] * values[q][k];
+  return force;
+}
+
+/// Integral of sigma n.
+Force carried(const methods::Solution &solution, const problems::BoundaryQuadrature &points) {
+  std::vector<double> stress(3 * points.points.size());
+  solution.evaluate("stress", points.points, stress);
+  Force force{};
+  for (std::size_t q = 0; q < points.points.size(); ++q) {
+    const auto [n1, n2] = points.normals[q];
+    force[0] += points.weights[q] * (stress[3 * q] * n1 + stress[3 * q + 2] * n2);
+    force[1] += points.weights[q] * (stress[3 * q + 2] * n1 + stress[3 * q + 1] * n2);
+  }
+  return force;
+}
+
+void integrate(const methods::Solution &solution, const problems::PlaneStatement &statement,
+               const problems::Quadrature &quadrature, Equilibrium &result) {
+  const auto boundary = problems::boundary_quadrature(statement);
+  for (const auto &[id, condition] : statement.conditions) {
+    const auto found = boundary.find(id);
+    if (found == boundary.end())
+      continue;
+    Force force = applied(condition, found->second);
+    const auto &prescribed = condition.displacement_prescribed;
+    if (prescribed[0] || prescribed[1]) {
+      const Force reaction = carried(solution, found->second);
+      for (std::size_t k = 0; k < 2; ++k)
+        if (prescribed[k])
+          force[k] = reaction[k];
+    }
+    result.boundary[id] = force;
+  }
+  if (!statement.body_force)
+    return;
+  std::vector<Vector2> values(quadrature.points.size());
+  statement.body_force(quadrature.points, values);
+  for (std::size_t q = 0; q < values.size(); ++q)
+    for (std::size_t k = 0; k < 2; ++k)
+      result.body[k] += quadrature.weights[q] * values[q][k];
+}
+
+double magnitude(const Force &force) { return std::hypot(force[0], force[1]); }
+
+} // namespace
+
+Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
+                        const problems::Quadrature &quadrature) {
+  Equilibrium result;
+  if (const auto own = solution.own_forces()) {
+    result.boundary = own->boundary;
+    result.body = own->body;
+  } else
+    integrate(solution, statement, quadrature, result);
+
+  Force sum = result.body;
+  double loads = magnitude(result.body);
+  double all = loads;
+  for (const auto &[id, force] : result.boundary) {
+    const auto condition = statement.conditions.find(id);
+    Force load = force;
+    for (std::size_t k = 0; k < 2; ++k) {
+      sum[k] += force[k];
+      if (condition != statement.conditions.end() && condition->second.displacement_prescribed[k])
+        load[k] = 0;
+    }
+    loads += magnitude(load);
+    all += magnitude(force);
+  }
+  const double scale = loads > 1e-12 * all ? loads : all;
+  result.imbalance = scale > 0 ? magnitude(sum) / scale : 0;
+  return result;
+}
+
+} // namespace comparisons::metrics

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "comparisons/methods/solution.h"
+#include "comparisons/problems/plane_problem.h"
+
+#include <array>
+#include <map>
+
+namespace comparisons::metrics {
+
+/// Forces on a body and what they leave over.
+struct Equilibrium {
+  using Force = std::array<double, 2>;
+  /// By boundary id, N per m of thickness: the reaction in components whose displacement is prescribed, the applied
+  /// traction in the others.
+  std::map<int, Force> boundary;
+  Force body{};
+  /// |sum of all forces| over the sum of the magnitudes of what is applied (of all forces if nothing is).
+  double imbalance = 0;
+};
+
+/// Forces of a solution: by its own discrete equations if it has them (methods::ForceBalance), else reactions are the
+/// integrals of the solution's stress over the boundary and loads those of the prescribed traction and body force.
+///
+/// The test functions of the meshless weak forms do not sum to one, so nothing balances their forces but convergence:
+/// the imbalance is an error measure that needs no exact solution.
+/// @param quadrature for the body force; ignored without one
+Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
+                        const problems::Quadrature &quadrature);
+
+} // namespace comparisons::metrics

@@ -1,0 +1,394 @@
+#include "assembler.h"
+
+#include "../equations.h"
+#include "subdomain_radius.h"
+
+#include "meshless/linear_algebra/stopwatch.h"
+
+#include <algorithm>
+
+namespace meshless::elasticity::weak_form {
+
+namespace {
+
+using linear_algebra::load;
+using linear_algebra::n_lanes;
+using linear_algebra::Pack;
+using linear_algebra::Stopwatch;
+using PartKind = domain::SubdomainQuadrature::PartKind;
+
+/// Points of one batch: enough to fill SIMD lanes, few enough that the shape functions of a batch
+/// stay in the second-level cache.
+constexpr std::size_t batch_size = 64;
+
+constexpr std::array<bool, 2> both{true, true};
+
+} // namespace
+
+Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundings,
+                     const cloud::Particles<2> &particles, const basis::ShapeFunctions<2> &basis,
+                     const Parameters &parameters)
+    : problem_(problem), surroundings_(surroundings), particles_(particles), basis_(basis), parameters_(parameters),
+      interfaces_(problem.regions), search_(particles, basis.support()), foreign_(surroundings.n_regions()) {
+  for (std::size_t r = 0; r < surroundings.n_regions(); ++r)
+    regions_.push_back(
+        {domain::SubdomainRule(surroundings.boundary(r), parameters.quadrature_points, &surroundings.visibility(r)),
+         RegionFilter(surroundings, particles, r),
+         parameters.penalty * surroundings.material(r).plane_modulus() / parameters.characteristic_length});
+}
+
+void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matrix,
+                         std::vector<double> &right_hand_side) {
+  Stopwatch watch;
+  place(particle);
+  const bool collocated = interior_ && parameters_.interior_rows == InteriorRows::collocated;
+  const bool heaviside = !parameters_.test_function;
+  if (!collocated)
+    regions_[region_].rule.build(centre_, radius_, quadrature_,
+                                 {.interior = !heaviside || problem_.body_force, .circle = heaviside});
+  seconds.assembly += watch.lap();
+  collect(region_, centre_, own_);
+  for (auto &block : foreign_)
+    block.candidates.clear();
+  seconds.neighbours += watch.lap();
+  right_ = {0, 0};
+  if (collocated)
+    collocate();
+  else {
+    if (heaviside) {
+      if (problem_.body_force)
+        integrate_body_force();
+    } else
+      integrate_domain();
+    for (const auto &part : quadrature_.parts)
+      integrate_part(part);
+  }
+  watch.lap();
+  append_rows(matrix, right_hand_side);
+  seconds.assembly += watch.lap();
+}
+
+void Assembler::place(std::size_t particle) {
+  region_ = static_cast<std::size_t>(particles_.region(particle));
+  centre_ = particles_.position(particle);
+  radius_ = parameters_.test_radius * particles_.smoothing_length(particle);
+  if (parameters_.subdomains == Subdomains::shrunk || parameters_.interior_rows == InteriorRows::collocated) {
+    const auto own = surroundings_.boundary(region_).pieces_at(centre_);
+    interior_ = own.empty();
+    if (parameters_.subdomains == Subdomains::shrunk)
+      radius_ = shrunk_radius(surroundings_.visibility(region_), centre_, radius_, own);
+  }
+  if (parameters_.test_function)
+    test_length_ = radius_ / kernels::support_of(*parameters_.test_function);
+}
+
+/// Particles of the region that reach into the subdomain and are visible from a point.
+void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &block) {
+  search_.collect(centre_, radius_, block.candidates);
+  if (!surroundings_.simple())
+    regions_[region].filter.apply(seen_from, block.candidates);
+  block.batch.assign(particles_, block.candidates);
+  for (auto &component : block.k)
+    component.assign(block.candidates.size(), 0.0);
+}
+
+/// W_I and grad W_I at points.
+void Assembler::evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient) {
+  const std::size_t n = x.size();
+  if (!parameters_.test_function) {
+    test_.assign(n, 1.0);
+    return;
+  }
+  test_.resize(n);
+  if (with_gradient)
+    for (auto &component : test_gradient_)
+      component.resize(n);
+  const double inverse_h = 1 / test_length_;
+  std::visit(
+      [&](const auto &kernel) {
+        for (std::size_t q = 0; q < n; ++q) {
+          const double dx = (x[q] - centre_[0]) * inverse_h;
+          const double dy = (y[q] - centre_[1]) * inverse_h;
+          const double s_squared = dx * dx + dy * dy;
+          test_[q] = kernel.value(s_squared);
+          if (with_gradient) {
+            const double slope = kernel.slope(s_squared) * inverse_h;
+            test_gradient_[0][q] = slope * dx;
+            test_gradient_[1][q] = slope * dy;
+          }
+        }
+      },
+      *parameters_.test_function);
+}
+
+const double *Assembler::derivative(int k, std::size_t j) const {
+  return parameters_.derivatives == DerivativeRule::direct ? values_.gradient(k, j)
+                                                           : values_.differentiated_gradient(k, j);
+}
+
+basis::Wanted Assembler::wanted_gradient(bool with_value) const {
+  const bool direct = parameters_.derivatives == DerivativeRule::direct;
+  return {.value = with_value, .gradient = direct, .hessian = false, .differentiated_gradient = !direct};
+}
+
+void Assembler::evaluate_basis(std::span<const double> x, std::span<const double> y, const Block &block,
+                               basis::Wanted wanted) {
+  Stopwatch watch;
+  batch_.assign(std::array<std::span<const double>, 2>{x, y});
+  const auto regularity = basis_.evaluate(batch_, block.batch, wanted, values_, workspace_);
+  basis::require_regular(regularity, batch_, basis_);
+  seconds.basis += watch.lap();
+}
+
+/// Equilibrium at the particle: sigma_ij,j = -b_i.
+void Assembler::collocate() {
+  evaluate_basis({&centre_[0], 1}, {&centre_[1], 1}, own_, {.hessian = true});
+  for (std::size_t j = 0; j < own_.candidates.size(); ++j)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto row = equilibrium(surroundings_.material(region_), values_, j, 0, static_cast<int>(i));
+      own_.k[2 * i][j] = row[0];
+      own_.k[2 * i + 1][j] = row[1];
+    }
+  if (problem_.body_force) {
+    Vector2 force{};
+    problem_.body_force({&centre_, 1}, {&force, 1});
+    right_ = {-force[0], -force[1]};
+  }
+}
+
+void Assembler::integrate_domain() {
+  Stopwatch watch;
+  const std::span<const double> x = quadrature_.point[0];
+  const std::span<const double> y = quadrature_.point[1];
+  evaluate_test_function(x, y, true);
+  const std::size_t n = own_.candidates.size();
+  sums_.assign(4 * n, Pack(0.0));
+  for (std::size_t begin = 0; begin < x.size(); begin += batch_size) {
+    const std::size_t size = std::min(batch_size, x.size() - begin);
+    seconds.assembly += watch.lap();
+    evaluate_basis(x.subspan(begin, size), y.subspan(begin, size), own_, wanted_gradient(false));
+    watch.lap();
+    for (int a = 0; a < 2; ++a) {
+      weighted_[a].assign(batch_.stride(), 0.0); // padding weighs nothing
+      for (std::size_t q = 0; q < size; ++q)
+        weighted_[a][q] = quadrature_.JxW[begin + q] * test_gradient_[a][begin + q];
+    }
+    add_gradient_products(n);
+  }
+  // sums_[4 j + 2 a + b] = int W,a phi_j,b; the material comes in once per candidate.
+  const auto &d = surroundings_.material(region_);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double s11 = reduce(sums_[4 * j]);
+    const double s12 = reduce(sums_[4 * j + 1]);
+    const double s21 = reduce(sums_[4 * j + 2]);
+    const double s22 = reduce(sums_[4 * j + 3]);
+    own_.k[0][j] += d.axial() * s11 + d.shear() * s22;
+    own_.k[1][j] += d.coupling() * s12 + d.shear() * s21;
+    own_.k[2][j] += d.shear() * s12 + d.coupling() * s21;
+    own_.k[3][j] += d.shear() * s11 + d.axial() * s22;
+  }
+  if (problem_.body_force)
+    integrate_body_force();
+  seconds.assembly += watch.lap();
+}
+
+void Assembler::add_gradient_products(std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) {
+    const double *phi1 = derivative(0, j);
+    const double *phi2 = derivative(1, j);
+    Pack s11 = sums_[4 * j];
+    Pack s12 = sums_[4 * j + 1];
+    Pack s21 = sums_[4 * j + 2];
+    Pack s22 = sums_[4 * j + 3];
+    for (std::size_t q = 0; q < batch_.stride(); q += n_lanes) {
+      const Pack w1 = load(&weighted_[0][q]);
+      const Pack w2 = load(&weighted_[1][q]);
+      const Pack p1 = load(phi1 + q);
+      const Pack p2 = load(phi2 + q);
+      s11 += w1 * p1;
+      s12 += w1 * p2;
+      s21 += w2 * p1;
+      s22 += w2 * p2;
+    }
+    sums_[4 * j] = s11;
+    sums_[4 * j + 1] = s12;
+    sums_[4 * j + 2] = s21;
+    sums_[4 * j + 3] = s22;
+  }
+}
+
+/// With W of the points of the subdomain already there, or 1.
+void Assembler::integrate_body_force() {
+  const std::size_t n = quadrature_.JxW.size();
+  if (!parameters_.test_function)
+    test_.assign(n, 1.0);
+  points_.resize(n);
+  fields_.resize(n);
+  for (std::size_t q = 0; q < n; ++q)
+    points_[q] = {quadrature_.point[0][q], quadrature_.point[1][q]};
+  problem_.body_force(points_, fields_);
+  for (std::size_t q = 0; q < n; ++q)
+    for (int k = 0; k < 2; ++k)
+      right_[k] += quadrature_.JxW[q] * test_[q] * fields_[q][k];
+}
+
+std::span<const double> Assembler::coordinates(const Part &part, int k) const {
+  return std::span<const double>(quadrature_.boundary_point[k]).subspan(part.begin, part.end - part.begin);
+}
+
+void Assembler::integrate_part(const Part &part) {
+  Stopwatch watch;
+  evaluate_test_function(coordinates(part, 0), coordinates(part, 1), false);
+  if (part.kind == PartKind::boundary) {
+    if (part.id == interface_id)
+      integrate_interface(part);
+    else
+      integrate_boundary(part);
+    return;
+  }
+  seconds.assembly += watch.lap();
+  evaluate_basis(coordinates(part, 0), coordinates(part, 1), own_, wanted_gradient(false));
+  watch.lap();
+  add_flux(part, surroundings_.material(region_), both, own_);
+  seconds.assembly += watch.lap();
+}
+
+void Assembler::integrate_boundary(const Part &part) {
+  Stopwatch watch;
+  const auto &condition = problem_.conditions.at(part.id);
+  const std::size_t size = part.end - part.begin;
+  points_.resize(size);
+  for (std::size_t q = 0; q < size; ++q)
+    points_[q] = {quadrature_.boundary_point[0][part.begin + q], quadrature_.boundary_point[1][part.begin + q]};
+  std::array<bool, 2> displacement{};
+  for (std::size_t k = 0; k < 2; ++k)
+    displacement[k] = condition.kind[k] == ConditionKind::displacement;
+  fields_.resize(size);
+  if (displacement != both && condition.traction) {
+    normals_.resize(size);
+    for (std::size_t q = 0; q < size; ++q)
+      normals_[q] = {quadrature_.boundary_normal[0][part.begin + q], quadrature_.boundary_normal[1][part.begin + q]};
+    condition.traction(points_, normals_, fields_);
+    add_to_right_hand_side(part, condition, ConditionKind::traction, 1);
+  }
+  if (displacement[0] || displacement[1]) {
+    const double alpha = regions_[region_].alpha;
+    condition.displacement(points_, fields_);
+    add_to_right_hand_side(part, condition, ConditionKind::displacement, alpha);
+    seconds.assembly += watch.lap();
+    evaluate_basis(coordinates(part, 0), coordinates(part, 1), own_, wanted_gradient(true));
+    watch.lap();
+    add_penalty(part, alpha, displacement, own_);
+    add_flux(part, surroundings_.material(region_), displacement, own_);
+  }
+  seconds.assembly += watch.lap();
+}
+
+void Assembler::integrate_interface(const Part &part) {
+  Stopwatch watch;
+  const auto &side = interfaces_.at(region_, part.piece);
+  Block &foreign = foreign_[side.region];
+  if (foreign.candidates.empty())
+    collect(side.region, {coordinates(part, 0)[0], coordinates(part, 1)[0]}, foreign);
+  seconds.neighbours += watch.lap();
+  const auto evaluate = [&](const Block &block, basis::Wanted wanted) {
+    evaluate_basis(coordinates(part, 0), coordinates(part, 1), block, wanted);
+    watch.lap();
+  };
+  if (side.follows) {
+    const double alpha = regions_[region_].alpha;
+    evaluate(foreign, {.value = true});
+    add_penalty(part, -alpha, both, foreign);
+    seconds.assembly += watch.lap();
+    evaluate(own_, wanted_gradient(true));
+    add_penalty(part, alpha, both, own_);
+    add_flux(part, surroundings_.material(region_), both, own_);
+  } else {
+    evaluate(foreign, wanted_gradient(false));
+    add_flux(part, surroundings_.material(side.region), both, foreign);
+  }
+  seconds.assembly += watch.lap();
+}
+
+void Assembler::add_to_right_hand_side(const Part &part, const BoundaryCondition &condition, ConditionKind kind,
+                                       double factor) {
+  for (int k = 0; k < 2; ++k)
+    if (condition.kind[k] == kind)
+      for (std::size_t q = 0; q < part.end - part.begin; ++q)
+        right_[k] += factor * quadrature_.boundary_JxW[part.begin + q] * test_[q] * fields_[q][k];
+}
+
+/// factor int u_i W for the components i.
+void Assembler::add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block) {
+  for (std::size_t j = 0; j < block.candidates.size(); ++j) {
+    double value = 0;
+    for (std::size_t q = 0; q < part.end - part.begin; ++q)
+      value += quadrature_.boundary_JxW[part.begin + q] * test_[q] * values_.value(j)[q];
+    if (components[0])
+      block.k[0][j] += factor * value;
+    if (components[1])
+      block.k[3][j] += factor * value;
+  }
+}
+
+/// - int sigma_ij n_j W for the components i.
+void Assembler::add_flux(const Part &part, const Material &d, const std::array<bool, 2> &components, Block &block) {
+  const std::size_t size = part.end - part.begin;
+  for (std::size_t j = 0; j < block.candidates.size(); ++j) {
+    // s_kl = int W phi_j,k n_l
+    double s11 = 0, s12 = 0, s21 = 0, s22 = 0;
+    for (std::size_t q = 0; q < size; ++q) {
+      const double weight = quadrature_.boundary_JxW[part.begin + q] * test_[q];
+      const double n1 = quadrature_.boundary_normal[0][part.begin + q];
+      const double n2 = quadrature_.boundary_normal[1][part.begin + q];
+      const double phi1 = weight * derivative(0, j)[q];
+      const double phi2 = weight * derivative(1, j)[q];
+      s11 += phi1 * n1;
+      s12 += phi1 * n2;
+      s21 += phi2 * n1;
+      s22 += phi2 * n2;
+    }
+    if (components[0]) {
+      block.k[0][j] -= d.axial() * s11 + d.shear() * s22;
+      block.k[1][j] -= d.coupling() * s21 + d.shear() * s12;
+    }
+    if (components[1]) {
+      block.k[2][j] -= d.shear() * s21 + d.coupling() * s12;
+      block.k[3][j] -= d.shear() * s11 + d.axial() * s22;
+    }
+  }
+}
+
+void Assembler::append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+  row_.clear();
+  const auto append = [&](const Block &block) {
+    for (std::size_t j = 0; j < block.candidates.size(); ++j)
+      row_.push_back({block.candidates[j], {block.k[0][j], block.k[1][j], block.k[2][j], block.k[3][j]}});
+  };
+  append(own_);
+  bool sorted = true;
+  for (const auto &block : foreign_)
+    if (!block.candidates.empty()) {
+      append(block);
+      sorted = false;
+    }
+  if (!sorted)
+    std::sort(row_.begin(), row_.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  const std::size_t n = row_.size();
+  columns_.resize(2 * n);
+  entries_.resize(2 * n);
+  for (std::size_t j = 0; j < n; ++j) {
+    columns_[2 * j] = 2 * std::int64_t{row_[j].first};
+    columns_[2 * j + 1] = columns_[2 * j] + 1;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      entries_[2 * j] = row_[j].second[2 * i];
+      entries_[2 * j + 1] = row_[j].second[2 * i + 1];
+    }
+    matrix.append_row(columns_, entries_);
+    right_hand_side.push_back(right_[i]);
+  }
+}
+
+} // namespace meshless::elasticity::weak_form

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "meshless/domain/local_subdomain.h"
+#include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
+#include "meshless/linear_algebra/pack.h"
+#include "meshless/linear_algebra/sparse_rows.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace meshless::elasticity::weak_form {
+
+/// Assembles the two rows of one particle after the other; all scratch is reused.
+class Assembler {
+public:
+  /// All are kept by reference.
+  Assembler(const PlaneProblem &problem, const Surroundings &surroundings, const cloud::Particles<2> &particles,
+            const basis::ShapeFunctions<2> &basis, const Parameters &parameters);
+
+  /// Appends rows 2 I and 2 I + 1.
+  void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
+
+  SolveSeconds seconds;
+
+private:
+  /// Particles of one region that have a part in the rows, and their coefficients K_11, K_12, K_21, K_22.
+  struct Block {
+    std::vector<cloud::Index> candidates;
+    basis::CandidateBatch<2> batch;
+    std::array<std::vector<double>, 4> k;
+  };
+  /// What one region keeps for all its particles.
+  struct RegionRule {
+    domain::SubdomainRule rule;
+    RegionFilter filter;
+    double alpha;
+  };
+
+  void place(std::size_t particle);
+  void collect(std::size_t region, const Point2 &seen_from, Block &block);
+  void evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient);
+  void evaluate_basis(std::span<const double> x, std::span<const double> y, const Block &block, basis::Wanted wanted);
+  const double *derivative(int k, std::size_t j) const;
+  basis::Wanted wanted_gradient(bool with_value) const;
+
+  void collocate();
+  void integrate_domain();
+  void add_gradient_products(std::size_t n);
+  void integrate_body_force();
+
+  using Part = domain::SubdomainQuadrature::Part;
+  std::span<const double> coordinates(const Part &part, int k) const;
+  void integrate_part(const Part &part);
+  void integrate_boundary(const Part &part);
+  void integrate_interface(const Part &part);
+  void add_to_right_hand_side(const Part &part, const BoundaryCondition &condition, ConditionKind kind, double factor);
+  void add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block);
+  void add_flux(const Part &part, const Material &material, const std::array<bool, 2> &components, Block &block);
+
+  void append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
+
+  const PlaneProblem &problem_;
+  const Surroundings &surroundings_;
+  const cloud::Particles<2> &particles_;
+  const basis::ShapeFunctions<2> &basis_;
+  const Parameters &parameters_;
+  Interfaces interfaces_;
+  std::vector<RegionRule> regions_;
+  cloud::CandidateSearch<2> search_;
+
+  std::size_t region_ = 0;
+  Point2 centre_{};
+  double radius_ = 0;
+  bool interior_ = true;
+  /// Length that the test function's argument is measured in.
+  double test_length_ = 0;
+  domain::SubdomainQuadrature quadrature_;
+  Block own_;
+  /// Of regions across an interface, by region; used are those with candidates.
+  std::vector<Block> foreign_;
+  basis::PointBatch<2> batch_;
+  basis::ShapeFunctionValues<2> values_;
+  basis::ShapeFunctions<2>::Workspace workspace_;
+  std::vector<double> test_;
+  std::array<std::vector<double>, 2> test_gradient_;
+  std::array<std::vector<double>, 2> weighted_;
+  std::vector<linear_algebra::Pack> sums_;
+  std::array<double, 2> right_{};
+  std::vector<Point2> points_;
+  std::vector<Vector2> fields_;
+  std::vector<Vector2> normals_;
+  std::vector<std::pair<cloud::Index, std::array<double, 4>>> row_;
+  std::vector<std::int64_t> columns_;
+  std::vector<double> entries_;
+};
+
+} // namespace meshless::elasticity::weak_form

@@ -1,0 +1,117 @@
+// Forces on the boundary by integrals of the stress: balance of an exact field, and an imbalance of known size.
+
+#include "comparisons/metrics/force_balance.h"
+#include "comparisons/problems/boundary_quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace {
+
+using namespace comparisons;
+using problems::Point2;
+using problems::Vector2;
+
+constexpr double pi = std::numbers::pi;
+
+/// sigma11 = a + b x2, sigma22 = c, sigma12 = d: in equilibrium without body force, times a factor.
+class LinearStress final : public methods::Solution {
+public:
+  explicit LinearStress(double factor) : factor_(factor) {}
+  std::vector<std::string> fields() const override { return {"stress"}; }
+  std::size_t n_components(std::string_view) const override { return 3; }
+  void evaluate(std::string_view field, std::span<const Point2> points, std::span<double> values) const override {
+    if (field != "stress")
+      throw std::invalid_argument("stress only");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      values[3 * i] = factor_ * (2 + 3 * points[i][1]);
+      values[3 * i + 1] = factor_ * -1;
+      values[3 * i + 2] = factor_ * .5;
+    }
+  }
+
+private:
+  double factor_;
+};
+
+/// Quarter ring between the radii 1 and 2: bottom held, the rest loaded by the tractions of the field.
+problems::PlaneStatement quarter_ring() {
+  problems::PlaneStatement statement;
+  const problems::Arc inner{{0, 0}, false};
+  const problems::Arc outer{{0, 0}, true};
+  statement.regions = {{"",
+                        {1, .3, false},
+                        {{{1, 0}, {2, 0}, 0, "bottom"},
+                         {{2, 0}, {0, 2}, 1, "outer", outer},
+                         {{0, 2}, {0, 1}, 2, "left"},
+                         {{0, 1}, {1, 0}, 3, "inner", inner}}}};
+  problems::BoundaryCondition held;
+  held.displacement_prescribed = {true, true};
+  problems::BoundaryCondition loaded;
+  loaded.traction = [](std::span<const Point2> x, std::span<const Vector2> n, std::span<Vector2> t) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      t[i] = {(2 + 3 * x[i][1]) * n[i][0] + .5 * n[i][1], .5 * n[i][0] - n[i][1]};
+  };
+  statement.conditions = {{0, held}, {1, loaded}, {2, loaded}, {3, loaded}};
+  return statement;
+}
+
+TEST(BoundaryQuadrature, lengths_and_normals_of_lines_and_arcs) {
+  const auto boundary = problems::boundary_quadrature(quarter_ring());
+  const double lengths[] = {1, pi, 1, pi / 2};
+  ASSERT_EQ(boundary.size(), 4u);
+  std::array<double, 2> closed{};
+  for (const auto &[id, points] : boundary) {
+    double length = 0;
+    for (std::size_t q = 0; q < points.weights.size(); ++q) {
+      length += points.weights[q];
+      for (std::size_t k = 0; k < 2; ++k)
+        closed[k] += points.weights[q] * points.normals[q][k];
+    }
+    EXPECT_NEAR(length, lengths[id], 1e-13);
+  }
+  // The integral of the normal over a closed curve is zero (Gauss rule of ten-thousandths of a turn: rounding).
+  EXPECT_NEAR(closed[0], 0, 1e-13);
+  EXPECT_NEAR(closed[1], 0, 1e-13);
+  for (std::size_t q = 0; q < boundary.at(3).points.size(); ++q) { // the inner arc: out is towards the centre
+    EXPECT_NEAR(boundary.at(3).normals[q][0], -boundary.at(3).points[q][0], 1e-14);
+    EXPECT_NEAR(boundary.at(3).normals[q][1], -boundary.at(3).points[q][1], 1e-14);
+  }
+}
+
+TEST(ForceBalance, an_exact_stress_balances_its_loads) {
+  const auto statement = quarter_ring();
+  const auto exact = metrics::equilibrium(LinearStress(1), statement, {});
+  EXPECT_LT(exact.imbalance, 1e-13);
+  // Bottom, normal (0, -1): the support's force is minus (sigma12, sigma22) times the length.
+  EXPECT_NEAR(exact.boundary.at(0)[0], -.5, 1e-13);
+  EXPECT_NEAR(exact.boundary.at(0)[1], 1, 1e-13);
+}
+
+TEST(ForceBalance, a_wrong_stress_leaves_its_share) {
+  const auto statement = quarter_ring();
+  const auto exact = metrics::equilibrium(LinearStress(1), statement, {});
+  const auto wrong = metrics::equilibrium(LinearStress(1.1), statement, {});
+  double loads = 0;
+  for (const int id : {1, 2, 3})
+    loads += std::hypot(exact.boundary.at(id)[0], exact.boundary.at(id)[1]);
+  // Only the reaction comes from the solution: a tenth of it is left over.
+  EXPECT_NEAR(wrong.imbalance, .1 * std::hypot(.5, 1) / loads, 1e-12);
+}
+
+TEST(ForceBalance, a_body_force_counts) {
+  auto statement = quarter_ring();
+  statement.body_force = [](std::span<const Point2>, std::span<Vector2> b) {
+    for (auto &value : b)
+      value = {7, 0};
+  };
+  problems::Quadrature area;
+  area.points = {{1.2, .5}, {.5, 1.2}};
+  area.weights = {1, 2};
+  EXPECT_NEAR(metrics::equilibrium(LinearStress(1), statement, area).body[0], 21, 1e-13);
+}
+
+} // namespace
