@@ -106,11 +106,15 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
   const auto vocabulary = study::vocabulary_of(catalogue);
   fmt::print("{}\nBenchmark {}: {}\n\n{}", scene->title, benchmark.name, benchmark.meaning,
              scene::describe_effects(*scene, vocabulary));
-  fmt::print(
-      "\nFields allocated: displacement (2 per point){}. Stress and strain are computed where they are asked for.\n",
-      std::find(scene->effects.begin(), scene->effects.end(), "body_force") == scene->effects.end()
-          ? ""
-          : "; the body force is evaluated at quadrature points, not stored");
+  const auto called = [&](const char *effect) { return scene->effect_parameters.contains(effect); };
+  if (benchmark.time.empty())
+    fmt::print(
+        "\nFields allocated: displacement (2 per point){}. Stress and strain are computed where they are asked for.\n",
+        called("body_force") ? "; the body force is evaluated at quadrature points, not stored" : "");
+  else
+    fmt::print("\nFields allocated: {}; of effects that are absent none.\n",
+               called("gas_pressure") ? "mass, position, velocity, energy, density, smoothing length and their rates"
+                                      : "displacement, velocity and the rows of derivatives");
   if (scene->geometry != nullptr)
     fmt::print("\n{}", describe_geometry(*scene));
   print_cells(*scene, catalogue);
@@ -120,8 +124,7 @@ int explain_scene(const fs::path &file, const CommonOptions &options, const stud
     fmt::print("\n[problem]\n{}\n[material]\n{}\n", scene::describe_declarations(benchmark.problem),
                scene::describe_declarations(benchmark.material));
   for (const auto &effect : vocabulary.effects)
-    if (const auto called = scene->effect_parameters.find(effect.name);
-        called != scene->effect_parameters.end() && !effect.parameters.empty())
+    if (called(effect.name.c_str()) && !effect.parameters.empty())
       fmt::print("[effects.{}]\n{}\n", effect.name, scene::describe_declarations(effect.parameters));
   if (!benchmark.time.empty())
     fmt::print("[time]\n{}\n", scene::describe_declarations(benchmark.time));

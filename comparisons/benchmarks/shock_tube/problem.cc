@@ -146,6 +146,11 @@ private:
     const double contact = *exact_.star_velocity() * time;
     put("shock_position",
         crossing_from_right(profile.x, profile.pressure, 0.5 * (star + tube_.right.pressure), 0, end));
+    const double jump = star - tube_.right.pressure;
+    const auto foot = crossing_from_right(profile.x, profile.pressure, tube_.right.pressure + 0.1 * jump, contact, end);
+    const auto top = crossing_from_right(profile.x, profile.pressure, tube_.right.pressure + 0.9 * jump, contact, end);
+    if (foot && top)
+      measured["shock_width"] = *foot - *top;
     const double drop = tube_.left.pressure - star;
     put("rarefaction_head",
         crossing_from_right(profile.x, profile.pressure, tube_.left.pressure - 0.05 * drop, -end, contact));

@@ -40,7 +40,7 @@ TEST(SceneTime, StepAndCflTogetherAreRefused) {
 }
 
 TEST(SceneTime, WrongValues) {
-  EXPECT_EQ(findings(bar_scene("[time]\nend = \"3 m\"\n")).substr(0, 33), "beam.toml:6:7: error: time.end: '3");
+  EXPECT_TRUE(findings(bar_scene("[time]\nend = \"3 m\"\n")).starts_with("beam.toml:6:7: error: time.end: "));
   EXPECT_NE(findings(bar_scene("[time]\nend = 0\n")).find("time.end"), std::string::npos);
   EXPECT_NE(findings(bar_scene("[time]\nsnapshot = 2\n")).find("did you mean 'snapshots'?"), std::string::npos);
 }

@@ -27,7 +27,7 @@ Vector flux(const tube::GasState &s, double gamma) {
 }
 
 /// Integral form over a box that holds all waves, -a < x < a, 0 < t < 1: what is in it at the end is what was in it and
-/// has come in. Holds shocks, contacts and fans together. Midpoint rule with 2e5 cells: jumps give 1e-5 of their size.
+/// has come in. Holds shocks, contacts and fans together. Midpoint rule with 4e4 cells: jumps give 5e-5 of their size.
 void check_balance(const tube::GasState &left, const tube::GasState &right, double gamma) {
   const tube::RiemannSolution solution(left, right, gamma);
   const double a = 1.1 * std::max({std::abs(left.velocity) + 3 * std::sqrt(gamma * left.pressure / left.density),
@@ -35,7 +35,7 @@ void check_balance(const tube::GasState &left, const tube::GasState &right, doub
                                    std::abs(solution.left_wave().head), std::abs(solution.right_wave().head)});
   Vector inside{};
   Vector scale{};
-  const int cells = 200000;
+  const int cells = 40000;
   for (int i = 0; i < cells; ++i) {
     const auto u = conserved(solution.at(a * (2 * (i + 0.5) / cells - 1)), gamma);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,7 +46,7 @@ void check_balance(const tube::GasState &left, const tube::GasState &right, doub
   for (std::size_t k = 0; k < 3; ++k) {
     const double before = a * (conserved(left, gamma)[k] + conserved(right, gamma)[k]);
     const double came = flux(left, gamma)[k] - flux(right, gamma)[k];
-    EXPECT_NEAR(inside[k], before + came, 1e-4 * (scale[k] + std::abs(came))) << k;
+    EXPECT_NEAR(inside[k], before + came, 2e-4 * (scale[k] + std::abs(came))) << k;
   }
 }
 

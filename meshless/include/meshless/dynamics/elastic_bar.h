@@ -70,11 +70,11 @@ public:
   double growth_rate() const;
 
   /// One step.
-  /// @throws Violation for a step above the stable one; every 50 steps for values that are not finite or an energy
+  /// @throws Violation for a step above the stable one; every 200 steps for values that are not finite or an energy
   ///   above 1.5 times the work that the ends have put in
   void step(double time_step);
 
-  /// As that of every 50 steps, now.
+  /// As that of every 200 steps, now.
   void check() const;
 
   std::span<const double> displacement() const;

@@ -1,0 +1,123 @@
+// Runs in time as a user meets them: killed and resumed, refused, and what they say of effects.
+
+#include "system/program_process.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <thread>
+
+namespace {
+
+using namespace system_tests;
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The only file of a folder whose name ends so; empty if there is none.
+fs::path file_in(const fs::path &folder, const std::string &end) {
+  if (fs::exists(folder))
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (entry.path().string().ends_with(end))
+        return entry.path();
+  return {};
+}
+
+const std::string slab = "schema = 1\nbenchmark = \"detonation\"\n[[method]]\nname = \"sph\"\n[time]\nend = \"10 us\"\n"
+                         "snapshots = 2\ncheckpoint_every = 50\n[study]\nlevels = [1000]\n";
+
+TEST(Transient, KilledAnywhereAndResumedItEndsWithTheSameBits) {
+  const Folder folder;
+  folder.write("slab.toml", slab);
+  ASSERT_EQ(run_program({"run", "slab.toml", "--output", "whole", "--quiet"}, folder.path()).exit_code, 0);
+  const std::string whole = bytes_of(file_in(folder / "whole/series", "profile-2.csv"));
+  ASSERT_FALSE(whole.empty());
+  std::mt19937 random(5);
+  int n_resumed = 0;
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    const std::string out = "out" + std::to_string(i);
+    Process process({"run", "slab.toml", "--output", out}, folder.path());
+    for (int wait = 0; wait < 4000 && file_in(folder / out / "checkpoints", ".cbor").empty(); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 300));
+    process.send(SIGKILL);
+    process.wait();
+    const bool finished = fs::exists(folder / out / "results.json");
+    ASSERT_FALSE(file_in(folder / out / "checkpoints", ".cbor").empty());
+    n_resumed += !finished;
+    const auto again =
+        run_program({"run", "slab.toml", "--output", out, "--quiet", "--set", "time.resume=true"}, folder.path());
+    ASSERT_EQ(again.exit_code, 0) << again.err << again.out;
+    EXPECT_TRUE(bytes_of(file_in(folder / out / "series", "profile-2.csv")) == whole);
+  }
+  EXPECT_GT(n_resumed, 0) << "no run was cut short";
+}
+
+TEST(Transient, ACheckpointThatDoesNotFitIsRefusedByName) {
+  const Folder folder;
+  folder.write("slab.toml", slab);
+  const std::vector<std::string> run{"run",           "slab.toml", "--quiet",         "--set",
+                                     "time.end=1e-6", "--set",     "time.snapshots=1"};
+  auto resume = run;
+  resume.insert(resume.end(), {"--set", "time.resume=true"});
+  ASSERT_EQ(run_program(run, folder.path()).exit_code, 0);
+  const fs::path file = file_in(folder / "out/checkpoints", ".cbor");
+  ASSERT_FALSE(file.empty());
+  const std::string all = bytes_of(file);
+  EXPECT_EQ(run_program(resume, folder.path()).exit_code, 0);
+  auto other = resume;
+  other.insert(other.end(), {"--set", "effects.programmed_burn.speed=7000"});
+  const auto foreign = run_program(other, folder.path());
+  EXPECT_EQ(foreign.exit_code, 4);
+  EXPECT_NE(foreign.out.find("belongs to another scene"), std::string::npos) << foreign.out;
+  std::ofstream(file, std::ios::binary) << all.substr(0, all.size() / 2);
+  const auto truncated = run_program(resume, folder.path());
+  EXPECT_EQ(truncated.exit_code, 4);
+  EXPECT_NE(truncated.out.find("truncated"), std::string::npos) << truncated.out;
+}
+
+TEST(Transient, ADetonationBelowTheChapmanJouguetSpeedIsRefusedWithTheSpeed) {
+  const Folder folder;
+  folder.write("slab.toml", slab);
+  const auto ended = run_program({"check", "slab.toml", "--set", "effects.programmed_burn.speed=6000"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("6000 m/s is below the Chapman-Jouguet speed 6929.35 m/s"), std::string::npos) << ended.err;
+}
+
+TEST(Transient, TheReportNamesActiveAndAbsentEffects) {
+  const Folder folder;
+  folder.write("bar.toml", "schema = 1\nbenchmark = \"bar_wave\"\n[[method]]\nname = \"ssph\"\nkernel_parameter = 1.6\n"
+                           "[study]\nlevels = [100]\n");
+  const auto ended = run_program({"run", "bar.toml", "--quiet"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  const auto place = ended.out.find("effects: ");
+  ASSERT_NE(place, std::string::npos);
+  const std::string line = ended.out.substr(place, ended.out.find("\n\n", place) - place);
+  const auto absent = line.find("neither computed nor allocated");
+  ASSERT_NE(absent, std::string::npos) << line;
+  EXPECT_LT(line.find("elasticity"), absent);
+  EXPECT_LT(line.find("inertia"), absent);
+  EXPECT_GT(line.find("artificial_viscosity"), absent);
+  EXPECT_GT(line.find("programmed_burn"), absent);
+}
+
+TEST(Transient, AnEffectThatNoMethodHasIsRefusedByName) {
+  const Folder folder;
+  folder.write("bar.toml", "schema = 1\nbenchmark = \"bar_wave\"\n[effects]\nelasticity = true\ninertia = true\n"
+                           "gas_pressure = true\n[[method]]\nname = \"ssph\"\n[study]\nlevels = [100]\n");
+  const auto ended = run_program({"check", "bar.toml"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_NE(ended.err.find("no listed method can do the effect 'gas_pressure'"), std::string::npos) << ended.err;
+}
+
+} // namespace
