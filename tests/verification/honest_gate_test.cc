@@ -117,6 +117,9 @@ order = [2, 3]
 name = "weak2"
 order = [2, 3]
 [[method]]
+name = "hybrid"
+order = [2, 3]
+[[method]]
 name = "fem"
 element = ["Q1", "Q2", "Q3"]
 [study]

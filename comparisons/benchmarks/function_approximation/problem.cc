@@ -2,10 +2,10 @@
 
 #include "comparisons/benchmarks/function_approximation/arrangement.h"
 #include "comparisons/benchmarks/function_approximation/estimate.h"
-#include "comparisons/scene/expression.h"
 #include "comparisons/metrics/memory.h"
 #include "comparisons/metrics/slopes.h"
 #include "comparisons/reports/files.h"
+#include "comparisons/scene/expression.h"
 
 #include "fem_reference/approximation/lagrange_interpolant.h"
 

@@ -68,7 +68,8 @@ TEST(GeometryProblem, levels_refine_the_mesh) {
   for (const auto *level : {"mesh", "mesh/2", "0.05 m", "200"}) {
     const auto quadrature = made.problem->quadrature(made.level(level));
     EXPECT_GE(quadrature.points.size(), 400u * 16);
-    EXPECT_NEAR(std::accumulate(quadrature.weights.begin(), quadrature.weights.end(), 0.0), 1, 1e-12); // one-dimensional weights are good to 1e-13
+    EXPECT_NEAR(std::accumulate(quadrature.weights.begin(), quadrature.weights.end(), 0.0), 1,
+                1e-12); // one-dimensional weights are good to 1e-13
     EXPECT_EQ(made.problem->cloud(made.level(level)).positions.size(),
               made.problem->mesh(made.level(level)).vertices.size());
   }

@@ -242,7 +242,7 @@ void check(const std::vector<ParsedTable> &tables, const std::map<std::string, i
     expected[section] = n;
   std::erase_if(expected, [](const auto &entry) { return entry.second == 0; });
   EXPECT_EQ(seen, expected);
-  EXPECT_GT(comparison.n_compared(), 150u);
+  EXPECT_GT(comparison.n_compared(), 130u);
 }
 
 /// Base64 and zlib, as the page holds its data.

@@ -97,7 +97,7 @@ std::vector<BadInput> bad_names() {
       {"later_analysis", "repeats = 5", "analysis = \"modes\"",
        ":22:12: error: study.analysis: unknown analysis 'modes'; allowed: static"},
       {"wrong_expectation", "element = \"Q1\"", "expect = \"refuse\"",
-       ":19:10: error: method[1].expect: unknown expect 'refuse'; allowed: ok, refused "
+       ":19:10: error: method[1].expect: unknown expect 'refuse'; allowed: ok, refused, failed "
        "(did you mean 'refused'?)"},
       {"effect_that_nobody_has", "elasticity = true", "elasticity = true\nheat_conduction = true",
        ":12:1: error: effects.heat_conduction: no listed method can do the effect 'heat_conduction' "
@@ -116,9 +116,9 @@ std::vector<BadInput> bad_names() {
        ":12:15: error: effects.body_force.fakter: unknown key 'fakter' in [effects.body_force]; allowed: factor (did "
        "you mean 'factor'?)"},
       {"effect_parameter_out_of_range", "elasticity = true", "elasticity = true\nbody_force = {factor = -1}",
-       ":12:24: error: effects.body_force.factor: -1 is out of range; allowed: 0 or greater"},
+       ":12:24: error: effects.body_force.factor: -1 is out of range; it must be at least 0"},
       {"time_of_a_static_benchmark", "[study]", "[time]\nend = 1\n[study]",
-       ":20:2: error: time: the benchmark 'beam' knows no time (remove this table)"},
+       ":20:1: error: time: the benchmark 'beam' knows no time (remove this table)"},
       {"effect_of_wrong_type", "elasticity = true", "elasticity = true\ninertia = 1",
        ":12:11: error: effects.inertia: expected true or false, found the whole number 1"},
   };
