@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include <sstream>
 #include <thread>
 
@@ -48,8 +51,14 @@ void expect_whole(const fs::path &file) {
     for (const auto n : rows)
       ASSERT_EQ(n, rows.front()) << file;
   } else {
-    EXPECT_TRUE(ending == ".txt" || ending == ".md") << "an unknown file " << file;
-    EXPECT_TRUE(text.ends_with('\n')) << file;
+    const std::set<std::string> known{".txt", ".md", ".tex", ".html", ".dat", ".gp", ".svg", ".pdf", ".vtu", ".pvd"};
+    EXPECT_TRUE(known.contains(ending.string())) << "an unknown file " << file;
+    if (ending == ".html")
+      EXPECT_TRUE(text.find("</html>") != std::string::npos) << file;
+    else if (ending == ".pdf")
+      EXPECT_TRUE(text.find("%%EOF") != std::string::npos) << file;
+    else
+      EXPECT_TRUE(text.ends_with('\n')) << file;
   }
 }
 
