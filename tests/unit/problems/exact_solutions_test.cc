@@ -38,14 +38,6 @@ std::vector<Point2> around_the_hole() {
   return points;
 }
 
-std::vector<Point2> beside_the_ellipse() {
-  std::vector<Point2> points;
-  for (const Point2 &x : around_the_hole())
-    if (std::hypot(x[0], x[1]) > 1.05)
-      points.push_back(x);
-  return points;
-}
-
 /// The table: a new exact solution gets a line here.
 std::vector<Case> all_solutions() {
   std::vector<Case> cases;
