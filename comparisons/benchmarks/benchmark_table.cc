@@ -13,22 +13,16 @@
 #include "comparisons/benchmarks/smoothing_functions/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
-#include <algorithm>
-
 namespace comparisons::benchmarks {
 
 namespace {
-
-bool wants_fields(const scene::Scene &scene) {
-  return std::find(scene.formats.begin(), scene.formats.end(), "vtu") != scene.formats.end();
-}
 
 /// Benchmark of plane elasticity from its problem.
 template <typename MakeProblem>
 study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make_problem) {
   return {std::move(description), [make_problem](const scene::Scene &scene, const scene::ProblemVariant &variant,
                                                  const std::vector<methods::Method> &methods) {
-            return study::make_plane_experiment(make_problem(scene, variant), methods, wants_fields(scene));
+            return study::make_plane_experiment(make_problem(scene, variant), methods, study::wants_fields(scene));
           }};
 }
 

@@ -176,6 +176,10 @@ private:
 
 } // namespace
 
+bool wants_fields(const scene::Scene &scene) {
+  return std::find(scene.formats.begin(), scene.formats.end(), "vtu") != scene.formats.end();
+}
+
 std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
                                                   const std::vector<methods::Method> &methods, bool with_fields) {
   return std::make_unique<PlaneExperiment>(std::move(problem), methods, with_fields);

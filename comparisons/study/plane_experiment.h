@@ -9,6 +9,9 @@
 
 namespace comparisons::study {
 
+/// The scene asks for the format vtu.
+bool wants_fields(const scene::Scene &scene);
+
 /// Plane elastostatics: every method of the table on the same statement, errors on one quadrature a
 /// level, displacement and stress along the problem's sample lines.
 /// @param methods kept by reference

@@ -77,6 +77,7 @@ public:
     services.identity = study::identity_of(scene_, variant_, request, level);
     if (!directory.empty())
       services.checkpoint = directory / study::checkpoint_file(cell);
+    cell.dimension = 1;
     cell.n_points = n;
     if (problem_.text("case") == "stretched")
       run_stretched(request, n, services, cell);

@@ -92,6 +92,7 @@ public:
           write_curves(slab.gas(), directory, index, cell);
       };
     const auto outcome = study::run_in_time(slab, time_, services);
+    cell.dimension = 1;
     cell.n_points = n;
     cell.n_dofs = 3 * n;
     cell.steps = slab.steps();

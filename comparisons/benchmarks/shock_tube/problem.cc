@@ -63,6 +63,7 @@ public:
           write_curves(profile, gas->time(), directory, index, cell);
       };
     const auto outcome = study::run_in_time(*gas, time_, services);
+    cell.dimension = 1;
     cell.n_points = gas->n_points();
     cell.n_dofs = gas->n_dofs();
     cell.steps = gas->steps();
