@@ -21,6 +21,16 @@ using PartKind = SubdomainQuadrature::PartKind;
 
 Point2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
+/// Radius of a Gauss point of an interval, and its weight with the r of polar coordinates.
+std::pair<double, double> radial_point(double inner, double outer, double point, double weight, bool by_area) {
+  if (by_area) {
+    const double area = (outer - inner) * (outer + inner);
+    return {std::sqrt(inner * inner + area * point), 0.5 * area * weight};
+  }
+  const double r = inner + (outer - inner) * point;
+  return {r, (outer - inner) * weight * r};
+}
+
 void add_boundary_point(const Point2 &x, const Point2 &normal, double JxW, SubdomainQuadrature &quadrature) {
   for (int k = 0; k < 2; ++k) {
     quadrature.boundary_point[k].push_back(x[k]);
@@ -58,11 +68,11 @@ struct SubdomainRule::Scratch {
   std::vector<double> splits;
   std::vector<Meeting> meetings;
 
-  void add_whole_disc(int n, SubdomainQuadrature &quadrature) const;
+  void add_whole_disc(const SubdomainPoints &n, SubdomainQuadrature &quadrature) const;
   void add_whole_circle(int n, SubdomainQuadrature &quadrature) const;
   bool find_pieces(const Boundary &boundary);
   void make_wedges(const Boundary &boundary, const Visibility *visibility);
-  void add_wedge(const Wedge &wedge, int n, SubdomainQuadrature &quadrature);
+  void add_wedge(const Wedge &wedge, const SubdomainPoints &n, SubdomainQuadrature &quadrature);
   void add_boundary(std::size_t slot, const Part &part, bool any_hidden, int n, SubdomainQuadrature &quadrature);
   void split_at_breaks(const SeenPiece &piece, const Part &part);
   bool seen_inside_of(const BoundaryPiece &piece, double t);
@@ -74,11 +84,12 @@ struct SubdomainRule::Scratch {
   std::span<Wedge> all_wedges() { return std::span(wedges).first(n_wedges); }
 };
 
-SubdomainRule::SubdomainRule(const Boundary &boundary, int n_radial, const Visibility *visibility)
-    : boundary_(&boundary), visibility_(visibility && !visibility->convex() ? visibility : nullptr),
-      n_radial_(n_radial), scratch_(std::make_unique<Scratch>()) {
-  if (n_radial < 1)
-    throw std::invalid_argument("a subdomain needs at least one radial quadrature point");
+SubdomainRule::SubdomainRule(const Boundary &boundary, const SubdomainPoints &points, const Visibility *visibility)
+    : boundary_(&boundary), visibility_(visibility && !visibility->convex() ? visibility : nullptr), points_(points),
+      scratch_(std::make_unique<Scratch>()) {
+  if (points.radial < 1 || points.angular < 1 || points.boundary < 1)
+    throw std::invalid_argument(
+        "a subdomain needs at least one quadrature point in the radius, the angle and on a boundary");
 }
 
 SubdomainRule::~SubdomainRule() = default;
@@ -93,9 +104,9 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
   s.disc.tolerance = boundary_->tolerance();
   if (!s.find_pieces(*boundary_)) {
     if (wanted.interior)
-      s.add_whole_disc(n_radial_, quadrature);
+      s.add_whole_disc(points_, quadrature);
     if (wanted.circle)
-      s.add_whole_circle(n_radial_, quadrature);
+      s.add_whole_circle(points_.boundary, quadrature);
     return;
   }
   quadrature.whole = false;
@@ -104,14 +115,14 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
   for (const auto &wedge : s.all_wedges()) {
     any_hidden = any_hidden || (visibility_ && wedge.any(Interval::hidden));
     if (wanted.interior && wedge.any(Interval::visible))
-      s.add_wedge(wedge, n_radial_, quadrature);
+      s.add_wedge(wedge, points_, quadrature);
   }
   for (const auto &[slot, part] : s.parts)
-    s.add_boundary(slot, part, any_hidden, n_radial_, quadrature);
+    s.add_boundary(slot, part, any_hidden, points_.boundary, quadrature);
   if (any_hidden)
-    s.add_cuts(n_radial_, quadrature);
+    s.add_cuts(points_.boundary, quadrature);
   if (wanted.circle)
-    s.add_circle(n_radial_, quadrature);
+    s.add_circle(points_.boundary, quadrature);
 }
 
 /// Fills disc.pieces and parts; false if no boundary comes into the disc.
@@ -144,16 +155,19 @@ void SubdomainRule::Scratch::make_wedges(const Boundary &boundary, const Visibil
   }
 }
 
-void SubdomainRule::Scratch::add_whole_disc(int n, SubdomainQuadrature &quadrature) const {
-  const auto &radial = linear_algebra::cached_gauss_legendre(n);
-  const auto &gauss = linear_algebra::cached_gauss_legendre(4 * n);
-  for (std::size_t a = 0; a < gauss.points.size(); ++a) {
-    const Point2 direction = direction_of(full_turn * gauss.points[a]);
+void SubdomainRule::Scratch::add_whole_disc(const SubdomainPoints &n, SubdomainQuadrature &quadrature) const {
+  const auto &radial = linear_algebra::cached_gauss_legendre(n.radial);
+  const auto &gauss = linear_algebra::cached_gauss_legendre(n.angular);
+  const auto n_angular = static_cast<std::size_t>(n.angular);
+  for (std::size_t a = 0; a < n_angular; ++a) {
+    const double turn = n.by_area ? static_cast<double>(a) / n.angular : gauss.points[a];
+    const double width = full_turn * (n.by_area ? 1.0 / n.angular : gauss.weights[a]);
+    const Point2 direction = direction_of(full_turn * turn);
     for (std::size_t q = 0; q < radial.points.size(); ++q) {
-      const double r = disc.radius * radial.points[q];
+      const auto [r, weight] = radial_point(0, disc.radius, radial.points[q], radial.weights[q], n.by_area);
       quadrature.point[0].push_back(disc.centre[0] + r * direction[0]);
       quadrature.point[1].push_back(disc.centre[1] + r * direction[1]);
-      quadrature.JxW.push_back(full_turn * gauss.weights[a] * disc.radius * radial.weights[q] * r);
+      quadrature.JxW.push_back(width * weight);
     }
   }
 }
@@ -170,9 +184,9 @@ void SubdomainRule::Scratch::add_whole_circle(int n, SubdomainQuadrature &quadra
   quadrature.parts.push_back(part);
 }
 
-void SubdomainRule::Scratch::add_wedge(const Wedge &wedge, int n, SubdomainQuadrature &quadrature) {
-  make_angular_rule(disc, wedge, 4 * n, angular);
-  const auto &radial = linear_algebra::cached_gauss_legendre(n);
+void SubdomainRule::Scratch::add_wedge(const Wedge &wedge, const SubdomainPoints &n, SubdomainQuadrature &quadrature) {
+  make_angular_rule(disc, wedge, n.angular, angular);
+  const auto &radial = linear_algebra::cached_gauss_legendre(n.radial);
   for (std::size_t a = 0; a < angular.points.size(); ++a) {
     const Point2 direction = direction_of(angular.points[a]);
     wedge.radii(disc, direction, radii);
@@ -181,10 +195,10 @@ void SubdomainRule::Scratch::add_wedge(const Wedge &wedge, int n, SubdomainQuadr
       if (wedge.intervals[i] != Interval::visible || extent <= 0)
         continue;
       for (std::size_t q = 0; q < radial.points.size(); ++q) {
-        const double r = radii[i] + extent * radial.points[q];
+        const auto [r, weight] = radial_point(radii[i], radii[i + 1], radial.points[q], radial.weights[q], n.by_area);
         quadrature.point[0].push_back(disc.centre[0] + r * direction[0]);
         quadrature.point[1].push_back(disc.centre[1] + r * direction[1]);
-        quadrature.JxW.push_back(angular.weights[a] * extent * radial.weights[q] * r);
+        quadrature.JxW.push_back(angular.weights[a] * weight);
       }
     }
   }

@@ -46,6 +46,19 @@ struct SubdomainWanted {
   bool circle = false;
 };
 
+/// Numbers of points of a rule.
+struct SubdomainPoints {
+  int radial = 10;   ///< on every interval of a ray inside the domain
+  int angular = 40;  ///< in a whole disc, or in every wedge between two break points
+  int boundary = 10; ///< on every part of the edge; two more on a whole circle
+  /// Gauss points in r^2 instead of r, and equispaced angles on whole discs: exact for polynomials of a higher degree
+  /// with the same number of points.
+  bool by_area = false;
+
+  /// nG x 4 nG, Batra & Zhang 2008.
+  static SubdomainPoints paper(int n_radial) { return {n_radial, 4 * n_radial, n_radial, false}; }
+};
+
 /// Gauss rule of n_radial x 4 n_radial points on discs, cut exactly by lines and circular arcs
 /// (Batra & Zhang 2008, section 3.2.2, 'Evaluation of integrals').
 ///
@@ -66,10 +79,14 @@ struct SubdomainWanted {
 /// one inside the domain, the ray between them becomes part of the subdomain's edge, so that the identity remains true.
 class SubdomainRule {
 public:
+  /// The paper's rule.
   /// @param boundary kept by reference
   /// @param n_radial nG >= 1
   /// @param visibility kept by reference; null: everything is visible
-  SubdomainRule(const Boundary &boundary, int n_radial, const Visibility *visibility = nullptr);
+  SubdomainRule(const Boundary &boundary, int n_radial, const Visibility *visibility = nullptr)
+      : SubdomainRule(boundary, SubdomainPoints::paper(n_radial), visibility) {}
+  /// Any other numbers of points, each >= 1.
+  SubdomainRule(const Boundary &boundary, const SubdomainPoints &points, const Visibility *visibility = nullptr);
   ~SubdomainRule();
   SubdomainRule(SubdomainRule &&) noexcept;
 
@@ -80,7 +97,7 @@ private:
   struct Scratch;
   const Boundary *boundary_;
   const Visibility *visibility_;
-  int n_radial_;
+  SubdomainPoints points_;
   std::unique_ptr<Scratch> scratch_;
 };
 

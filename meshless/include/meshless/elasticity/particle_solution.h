@@ -6,6 +6,7 @@
 #include "meshless/elasticity/surroundings.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct SolveSeconds {
   double solve = 0;
 };
 
+/// The pressure of a mixed method: p = sum psi_J p_J with a basis of its own.
+struct PressureField {
+  std::shared_ptr<const basis::ShapeFunctions<2>> basis;
+  std::vector<double> coefficients; ///< p_J of every particle, Pa
+};
+
 /// A discrete displacement field: coefficients u_J of the shape functions (not the displacement at
 /// the particles: the basis is not interpolating). Evaluates anywhere in the cloud.
 class ParticleSolution {
@@ -33,6 +40,13 @@ public:
   ParticleSolution(std::shared_ptr<const cloud::Particles<2>> particles,
                    std::shared_ptr<const basis::ShapeFunctions<2>> basis, DerivativeRule rule,
                    std::shared_ptr<const Surroundings> surroundings, std::vector<double> coefficients);
+
+  /// Of a mixed method: stress is then 2 mu eps + p I.
+  void set_pressure(PressureField pressure);
+  bool has_pressure() const { return pressure_.basis != nullptr; }
+  /// p = lambda div u at points, Pa, positive in tension, with the lambda of plane strain or plane stress.
+  /// @throws std::logic_error unless has_pressure()
+  void pressure(std::span<const Point2> points, std::span<double> values, std::span<const int> regions = {}) const;
 
   /// Displacement at points, m.
   /// @param regions of every point, for points on an interface; if empty each is taken to be in the first region that
@@ -55,7 +69,8 @@ private:
   using Visitor = std::function<void(const basis::GroupedEvaluation<2>::Group &, std::size_t region,
                                      std::span<const std::size_t> points)>;
   /// Visits all points, those of one region after those of another.
-  void visit(std::span<const Point2> points, std::span<const int> regions, const basis::Wanted &wanted,
+  void visit(const basis::ShapeFunctions<2> &basis, const cloud::CandidateSearch<2> &search,
+             std::span<const Point2> points, std::span<const int> regions, const basis::Wanted &wanted,
              const Visitor &visitor) const;
 
   std::shared_ptr<const cloud::Particles<2>> particles_;
@@ -64,6 +79,8 @@ private:
   std::shared_ptr<const Surroundings> surroundings_;
   std::vector<double> coefficients_;
   cloud::CandidateSearch<2> search_;
+  PressureField pressure_;
+  std::optional<cloud::CandidateSearch<2>> pressure_search_;
 };
 
 } // namespace meshless::elasticity

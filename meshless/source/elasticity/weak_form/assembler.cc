@@ -30,9 +30,14 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
                      const Parameters &parameters)
     : problem_(problem), surroundings_(surroundings), particles_(particles), basis_(basis), parameters_(parameters),
       interfaces_(problem.regions), search_(particles, basis.support()), foreign_(surroundings.n_regions()) {
+  const bool consistent = parameters.integration == IntegrationRule::consistent && parameters.test_function;
+  using Consistent = std::optional<ConsistentSubdomain>;
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r)
     regions_.push_back(
         {domain::SubdomainRule(surroundings.boundary(r), parameters.quadrature_points, &surroundings.visibility(r)),
+         consistent ? Consistent(std::in_place, surroundings.boundary(r), surroundings.visibility(r),
+                                 *parameters.test_function, basis.order())
+                    : Consistent(),
          RegionFilter(surroundings, particles, r),
          parameters.penalty * surroundings.material(r).plane_modulus() / parameters.characteristic_length});
 }
@@ -44,8 +49,7 @@ void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matri
   const bool collocated = interior_ && parameters_.interior_rows == InteriorRows::collocated;
   const bool heaviside = !parameters_.test_function;
   if (!collocated)
-    regions_[region_].rule.build(centre_, radius_, quadrature_,
-                                 {.interior = !heaviside || problem_.body_force, .circle = heaviside});
+    build_subdomain(heaviside);
   seconds.assembly += watch.lap();
   collect(region_, centre_, own_);
   for (auto &block : foreign_)
@@ -68,6 +72,19 @@ void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matri
   seconds.assembly += watch.lap();
 }
 
+void Assembler::build_subdomain(bool heaviside) {
+  if (regions_[region_].consistent) {
+    ConsistentPoints points{std::move(quadrature_), std::move(test_), std::move(edge_test_), std::move(test_gradient_)};
+    regions_[region_].consistent->build(centre_, radius_, points);
+    quadrature_ = std::move(points.quadrature);
+    test_ = std::move(points.test);
+    edge_test_ = std::move(points.edge_test);
+    test_gradient_ = std::move(points.gradient);
+  } else
+    regions_[region_].rule.build(centre_, radius_, quadrature_,
+                                 {.interior = !heaviside || problem_.body_force, .circle = heaviside});
+}
+
 void Assembler::place(std::size_t particle) {
   region_ = static_cast<std::size_t>(particles_.region(particle));
   centre_ = particles_.position(particle);
@@ -78,8 +95,6 @@ void Assembler::place(std::size_t particle) {
     if (parameters_.subdomains == Subdomains::shrunk)
       radius_ = shrunk_radius(surroundings_.visibility(region_), centre_, radius_, own);
   }
-  if (parameters_.test_function)
-    test_length_ = radius_ / kernels::support_of(*parameters_.test_function);
 }
 
 /// Particles of the region that reach into the subdomain and are visible from a point.
@@ -94,31 +109,11 @@ void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &bloc
 
 /// W_I and grad W_I at points.
 void Assembler::evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient) {
-  const std::size_t n = x.size();
-  if (!parameters_.test_function) {
-    test_.assign(n, 1.0);
-    return;
-  }
-  test_.resize(n);
-  if (with_gradient)
-    for (auto &component : test_gradient_)
-      component.resize(n);
-  const double inverse_h = 1 / test_length_;
-  std::visit(
-      [&](const auto &kernel) {
-        for (std::size_t q = 0; q < n; ++q) {
-          const double dx = (x[q] - centre_[0]) * inverse_h;
-          const double dy = (y[q] - centre_[1]) * inverse_h;
-          const double s_squared = dx * dx + dy * dy;
-          test_[q] = kernel.value(s_squared);
-          if (with_gradient) {
-            const double slope = kernel.slope(s_squared) * inverse_h;
-            test_gradient_[0][q] = slope * dx;
-            test_gradient_[1][q] = slope * dy;
-          }
-        }
-      },
-      *parameters_.test_function);
+  if (parameters_.test_function)
+    weak_form::evaluate_test_function(*parameters_.test_function, centre_, radius_, x, y, test_,
+                                      with_gradient ? &test_gradient_ : nullptr);
+  else
+    test_.assign(x.size(), 1.0);
 }
 
 const double *Assembler::derivative(int k, std::size_t j) const {
@@ -160,7 +155,8 @@ void Assembler::integrate_domain() {
   Stopwatch watch;
   const std::span<const double> x = quadrature_.point[0];
   const std::span<const double> y = quadrature_.point[1];
-  evaluate_test_function(x, y, true);
+  if (!regions_[region_].consistent) // else it has been
+    evaluate_test_function(x, y, true);
   const std::size_t n = own_.candidates.size();
   sums_.assign(4 * n, Pack(0.0));
   for (std::size_t begin = 0; begin < x.size(); begin += batch_size) {

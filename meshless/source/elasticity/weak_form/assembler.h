@@ -1,11 +1,14 @@
 #pragma once
 
+#include "consistent_subdomain.h"
+
 #include "meshless/domain/local_subdomain.h"
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 #include "meshless/linear_algebra/pack.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,11 +36,13 @@ private:
   /// What one region keeps for all its particles.
   struct RegionRule {
     domain::SubdomainRule rule;
+    std::optional<ConsistentSubdomain> consistent; ///< in its place
     RegionFilter filter;
     double alpha;
   };
 
   void place(std::size_t particle);
+  void build_subdomain(bool heaviside);
   void collect(std::size_t region, const Point2 &seen_from, Block &block);
   void evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient);
   void evaluate_basis(std::span<const double> x, std::span<const double> y, const Block &block, basis::Wanted wanted);
@@ -73,8 +78,6 @@ private:
   Point2 centre_{};
   double radius_ = 0;
   bool interior_ = true;
-  /// Length that the test function's argument is measured in.
-  double test_length_ = 0;
   domain::SubdomainQuadrature quadrature_;
   Block own_;
   /// Of regions across an interface, by region; used are those with candidates.
@@ -83,6 +86,7 @@ private:
   basis::ShapeFunctionValues<2> values_;
   basis::ShapeFunctions<2>::Workspace workspace_;
   std::vector<double> test_;
+  std::vector<double> edge_test_;
   std::array<std::vector<double>, 2> test_gradient_;
   std::array<std::vector<double>, 2> weighted_;
   std::vector<linear_algebra::Pack> sums_;

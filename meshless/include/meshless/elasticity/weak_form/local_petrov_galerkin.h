@@ -25,6 +25,14 @@ enum class InteriorRows {
   collocated, ///< equilibrium at the particle, as in the strong form; boundary rows remain weak
 };
 
+/// How subdomains are integrated.
+enum class IntegrationRule {
+  paper, ///< nG x 4 nG Gauss points (Batra & Zhang 2008)
+  /// Few points, with the gradient of the test function made consistent with them (ConsistentGradient): the patch test
+  /// holds for polynomials of the basis's order on any cloud.
+  consistent,
+};
+
 /// Parameters of the meshless local Petrov-Galerkin method (MLPG), Batra & Zhang 2008, section 3.2.
 struct Parameters {
   DerivativeRule derivatives = DerivativeRule::direct; ///< direct: weak1, differentiated: weak2
@@ -35,8 +43,9 @@ struct Parameters {
   double test_radius = 1;
   Subdomains subdomains = Subdomains::whole;
   InteriorRows interior_rows = InteriorRows::weak;
+  IntegrationRule integration = IntegrationRule::paper;
   /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part; with the Heaviside function nG + 2 on a
-  /// whole circle, nG on every arc of one.
+  /// whole circle, nG on every arc of one. The consistent rule has those of consistent_points.
   int quadrature_points = 10;
   /// alpha / (E0 / L): the penalty on essential conditions over plane modulus and length.
   double penalty = 1e5;

@@ -1,0 +1,73 @@
+#include "consistent_subdomain.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+namespace meshless::elasticity::weak_form {
+
+namespace {
+
+/// Doublings of the number of points that are tried.
+constexpr int largest_refinement = 3;
+
+} // namespace
+
+void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre, double radius,
+                            std::span<const double> x, std::span<const double> y, std::vector<double> &test,
+                            std::array<std::vector<double>, 2> *gradient) {
+  const std::size_t n = x.size();
+  test.resize(n);
+  if (gradient != nullptr)
+    for (auto &component : *gradient)
+      component.resize(n);
+  const double inverse_h = kernels::support_of(kernel) / radius;
+  std::visit(
+      [&](const auto &w) {
+        for (std::size_t q = 0; q < n; ++q) {
+          const double dx = (x[q] - centre[0]) * inverse_h;
+          const double dy = (y[q] - centre[1]) * inverse_h;
+          const double s_squared = dx * dx + dy * dy;
+          test[q] = w.value(s_squared);
+          if (gradient != nullptr) {
+            const double slope = w.slope(s_squared) * inverse_h;
+            (*gradient)[0][q] = slope * dx;
+            (*gradient)[1][q] = slope * dy;
+          }
+        }
+      },
+      kernel);
+}
+
+ConsistentSubdomain::ConsistentSubdomain(const domain::Boundary &boundary, const domain::Visibility &visibility,
+                                         const kernels::Kernel &test_function, int order)
+    : boundary_(&boundary), visibility_(&visibility), test_function_(test_function), order_(order),
+      rule_(boundary, consistent_points(order), &visibility), correction_(order - 1) {}
+
+void ConsistentSubdomain::build(const Point2 &centre, double radius, ConsistentPoints &points) {
+  const auto evaluate = [&](domain::SubdomainRule &rule) {
+    auto &quadrature = points.quadrature;
+    rule.build(centre, radius, quadrature);
+    evaluate_test_function(test_function_, centre, radius, quadrature.boundary_point[0], quadrature.boundary_point[1],
+                           points.edge_test, nullptr);
+    evaluate_test_function(test_function_, centre, radius, quadrature.point[0], quadrature.point[1], points.test,
+                           &points.gradient);
+    return correction_.correct(centre, radius, quadrature, points.test, points.edge_test, points.gradient);
+  };
+  if (evaluate(rule_))
+    return;
+  auto numbers = consistent_points(order_);
+  for (int refinement = 0; refinement < largest_refinement; ++refinement) {
+    numbers.radial *= 2;
+    numbers.angular *= 2;
+    domain::SubdomainRule finer(*boundary_, numbers, visibility_);
+    if (evaluate(finer))
+      return;
+  }
+  throw std::invalid_argument(fmt::format("the subdomain of the particle at ({:.6g}, {:.6g}), radius {:.3g} m, is too "
+                                          "narrow for consistent integration of order {}",
+                                          centre[0], centre[1], radius, order_));
+}
+
+} // namespace meshless::elasticity::weak_form
