@@ -5,6 +5,6 @@
 
 namespace comparisons::methods {
 
-std::vector<Method> method_table() { return {strong(), weak1(), weak2(), hybrid(), fem()}; }
+std::vector<Method> method_table() { return {strong(), weak1(), weak2(), hybrid(), mixed(), fem()}; }
 
 } // namespace comparisons::methods

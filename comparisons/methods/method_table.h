@@ -33,7 +33,7 @@ struct Method {
   std::function<std::unique_ptr<Solution>(const SolveRequest &)> solve;
 };
 
-/// The one table of methods: strong, weak1, weak2, hybrid, fem.
+/// The one table of methods: strong, weak1, weak2, hybrid, mixed, fem.
 std::vector<Method> method_table();
 
 } // namespace comparisons::methods

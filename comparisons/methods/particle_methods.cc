@@ -1,15 +1,18 @@
 #include "comparisons/methods/particle_methods.h"
 
 #include "comparisons/methods/corner_parameter.h"
+#include "comparisons/methods/locking.h"
 
 #include "meshless/basis/basis_table.h"
 #include "meshless/elasticity/cloud_quality.h"
+#include "meshless/elasticity/mixed_form/displacement_pressure.h"
 #include "meshless/elasticity/strong_form/collocation.h"
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 #include "meshless/kernels/kernel_table.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,21 +39,26 @@ constexpr const char *heaviside = "heaviside";
 
 /// A test function must vanish where the local subdomain ends and be smooth inside: the quadrature of
 /// subdomains does not stop where a spline's pieces meet.
-std::vector<std::string> test_function_names() {
+std::vector<std::string> smooth_test_functions() {
   std::vector<std::string> names;
   for (const auto &kernel : meshless::kernels::kernel_table())
     if (kernel.edge_smoothness >= 0 &&
         meshless::kernels::breaks_of(meshless::kernels::make_kernel(kernel.name, {})).empty())
       names.emplace_back(kernel.name);
+  return names;
+}
+
+std::vector<std::string> test_function_names() {
+  auto names = smooth_test_functions();
   names.emplace_back(heaviside);
   return names;
 }
 
-enum class Form { strong, weak1, weak2, hybrid };
+enum class Form { strong, weak1, weak2, hybrid, mixed };
 
 bool has_subdomains(Form form) { return form != Form::strong; }
-/// Needs second derivatives of the shape functions.
-bool collocates(Form form) { return form == Form::strong || form == Form::hybrid; }
+/// Needs second derivatives of the shape functions at any point.
+bool collocates(Form form) { return form == Form::strong || form == Form::hybrid || form == Form::mixed; }
 
 /// Bases that a form can use: in two dimensions, at least of order 1, with the derivatives that it asks for.
 std::vector<std::string> basis_names(Form form) {
@@ -96,8 +104,8 @@ std::vector<Declaration> basis_declarations(Form form, int lowest_order) {
        .type = Type::choice,
        .choices = {"given", "nearest", "mean4"},
        .default_value = "given",
-       .meaning =
-           "distance that h is measured in: the level's own spacing, the nearest particle, the mean of the 4 nearest"},
+       .meaning = "distance that h is measured in: the level's own spacing, the nearest particle, the mean of the 4 "
+                  "nearest"},
       {.name = "enlarge",
        .type = Type::choice,
        .choices = {"auto", "on", "off"},
@@ -124,12 +132,18 @@ std::vector<Declaration> weak_declarations(Form form) {
                 .default_value = "auto",
                 .meaning = "whole: cut by the boundary; shrunk: those inside reach no farther than it; auto: whole on "
                            "regular clouds, shrunk on others"},
+               {.name = "quadrature",
+                .type = Type::choice,
+                .choices = {"paper", "consistent"},
+                .default_value = "paper",
+                .meaning = "paper: nG x 4 nG Gauss points; consistent: 3 x 8 points for order 1 and 2, 3 x 12 for 3, "
+                           "4 x 16 for 4, and a gradient of the test function made consistent with them"},
                {.name = "quadrature_points",
                 .type = Type::integer,
                 .range = {.lower = 1, .upper = 64},
                 .default_value = std::int64_t{10},
                 .meaning = "nG: radial points; 4 nG in the angle, nG on a boundary part, nG + 2 on the circle of "
-                           "heaviside"},
+                           "heaviside; without effect with quadrature = consistent"},
                {.name = "penalty",
                 .range = {.lower = 0, .lower_open = true},
                 .default_value = 1e5,
@@ -139,6 +153,40 @@ std::vector<Declaration> weak_declarations(Form form) {
                 .choices = {"umfpack"},
                 .default_value = "umfpack",
                 .meaning = "linear solver"}});
+  return keys;
+}
+
+/// Keys of the mixed method: its integration is always consistent and its essential conditions are collocated.
+std::vector<Declaration> mixed_declarations() {
+  auto keys = basis_declarations(Form::mixed, 2);
+  keys.insert(
+      keys.end(),
+      {{.name = "pressure_support",
+        .range = {.lower = 1, .upper = 20, .lower_open = true},
+        .meaning = "rho of the basis of the pressure, of order - 1; if absent one less than the support"},
+       {.name = "stabilisation",
+        .range = {.lower = 0, .upper = 10},
+        .default_value = 0.2,
+        .meaning = "alpha of tau = alpha h^2 / (2 mu) (PSPG); .05 to 1 is usable, 0 lets the pressure oscillate"},
+       {.name = "test_function",
+        .type = Type::choice,
+        .choices = smooth_test_functions(),
+        .default_value = "gauss",
+        .meaning = "test function of the local weak form"},
+       {.name = "test_radius",
+        .range = {.lower = 0.05, .upper = 10},
+        .meaning = "radius of the local subdomain in units of h; if absent 1 spacing"},
+       {.name = "subdomains",
+        .type = Type::choice,
+        .choices = {"auto", "whole", "shrunk"},
+        .default_value = "auto",
+        .meaning = "whole: cut by the boundary; shrunk: those inside reach no farther than it; auto: whole on "
+                   "regular clouds, shrunk on others"},
+       {.name = "solver",
+        .type = Type::choice,
+        .choices = {"umfpack"},
+        .default_value = "umfpack",
+        .meaning = "linear solver"}});
   return keys;
 }
 
@@ -201,9 +249,11 @@ std::optional<meshless::kernels::Kernel> test_function_of(const Parameters &para
 /// stable for order 2, 1 is not; smaller ones have smaller errors of displacement, larger ones of the stress on the
 /// hole. Orders 3 and 4 lose accuracy below .8. Heaviside: .5 to .65 for all orders.
 /// @param smoothing_length h over the spacing
-double test_radius_of(const Parameters &parameters, bool regular, double smoothing_length) {
+double test_radius_of(const Parameters &parameters, Form form, bool regular, double smoothing_length) {
   if (parameters.has("test_radius"))
     return parameters.real("test_radius");
+  if (form == Form::mixed)
+    return 1 / smoothing_length;
   if (parameters.text("test_function") == heaviside)
     return 0.6 / smoothing_length;
   constexpr double spacings[] = {0.75, 0.75, 0.85, 0.9}; // by order
@@ -239,6 +289,13 @@ void check_support(const scene::CheckContext &context, scene::Diagnostics &diagn
                                   "needs {} lines of particles, so more than {}",
                                   reach, order, order + 1, order),
                       fmt::format("support = {}", order + 2));
+  else if (method.text("smoothing_rule") == "given" && reach < static_cast<double>(order) + 0.5)
+    diagnostics.warning(method.location(method.is_given("support") ? "support" : "smoothing_length"),
+                        context.method_key + ".support",
+                        fmt::format("the support reaches {} spacings, the limit for order {}: at a boundary the {} lines "
+                                    "of particles that it needs are barely inside, and on irregular particles not",
+                                    reach, order, order + 1),
+                        fmt::format("support = {}", order + 2));
 }
 
 void check_plane_strain(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
@@ -249,6 +306,20 @@ void check_plane_strain(const scene::CheckContext &context, scene::Diagnostics &
         fmt::format("{} is nearly incompressible: displacement methods in plane strain lock above 0.49, "
                     "and their errors grow",
                     nu));
+}
+
+/// The basis of the pressure must exist: its order is one less, and so are its lines of particles.
+void check_mixed(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
+  const auto &method = context.method;
+  if (!method.has("pressure_support"))
+    return;
+  const double reach = method.real("pressure_support") * smoothing_length_of(method, true);
+  const auto order = method.integer("order") - 1;
+  if (reach < static_cast<double>(order))
+    diagnostics.error(
+        method.location("pressure_support"), context.method_key + ".pressure_support",
+        fmt::format("the support of the pressure reaches {} spacings, too small for its order {}", reach, order),
+        fmt::format("pressure_support = {}", order + 2));
 }
 
 void check_corner(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
@@ -289,7 +360,8 @@ elasticity::PlaneProblem translate(const problems::PlaneStatement &statement) {
   return problem;
 }
 
-/// Smoothing lengths by the mean of the k nearest of the same region: those on an interface have a twin at distance 0.
+/// Smoothing lengths by the mean of the k nearest of the same region: those on an interface have a twin at distance
+/// 0.
 std::vector<double> lengths_by_mean(const problems::Cloud &cloud, int k, double factor) {
   if (cloud.regions.empty())
     return meshless::cloud::smoothing_lengths_by_mean<2>(cloud.positions, k, factor);
@@ -334,11 +406,12 @@ std::shared_ptr<const meshless::cloud::Particles<2>> make_particles(problems::Cl
 class ParticleField final : public Solution {
 public:
   ParticleField(elasticity::ParticleSolution solution, std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis,
-                double points_seconds, std::size_t n_enlarged, double largest_factor)
+                double points_seconds, std::size_t n_enlarged, double largest_factor, std::vector<std::string> warnings)
       : solution_(std::move(solution)), basis_(std::move(basis)) {
     const auto &s = solution_.seconds;
+    record_.warnings = std::move(warnings);
     record_.n_points = static_cast<std::int64_t>(solution_.particles().size());
-    record_.n_dofs = 2 * record_.n_points;
+    record_.n_dofs = (solution_.has_pressure() ? 3 : 2) * record_.n_points;
     record_.nonzeros = solution_.nonzeros;
     record_.seconds = {{"points", points_seconds},
                        {"neighbours", s.neighbours},
@@ -358,8 +431,14 @@ public:
           fmt::format("the linear system was solved with a backward error of {:.1e} only", solution_.backward_error));
   }
 
-  std::vector<std::string> fields() const override { return {"displacement", "stress"}; }
-  std::size_t n_components(std::string_view field) const override { return field == "displacement" ? 2 : 3; }
+  std::vector<std::string> fields() const override {
+    if (solution_.has_pressure())
+      return {"displacement", "stress", "pressure"};
+    return {"displacement", "stress"};
+  }
+  std::size_t n_components(std::string_view field) const override {
+    return field == "pressure" ? 1 : field == "displacement" ? 2 : 3;
+  }
 
   void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
                 std::span<double> values) const override {
@@ -373,8 +452,10 @@ public:
       solution_.stress(points, s);
       for (std::size_t i = 0; i < s.size(); ++i)
         std::copy(s[i].begin(), s[i].end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    } else
-      throw std::invalid_argument(fmt::format("no field '{}'; there are displacement and stress", field));
+    } else if (field == "pressure" && solution_.has_pressure())
+      solution_.pressure(points, values);
+    else
+      throw std::invalid_argument(fmt::format("no field '{}'; there are {}", field, fmt::join(fields(), ", ")));
   }
 
   std::vector<std::array<double, 2>> own_points() const override {
@@ -382,8 +463,8 @@ public:
     return {positions.begin(), positions.end()};
   }
 
-  /// Smoothing length, and neighbours and regularity of the moment matrix (smallest pivot over its diagonal entry, 1 at
-  /// best) at every particle.
+  /// Smoothing length, and neighbours and regularity of the moment matrix (smallest pivot over its diagonal entry, 1
+  /// at best) at every particle.
   std::map<std::string, std::vector<double>> own_figures() const override {
     const auto &particles = solution_.particles();
     const meshless::cloud::CandidateSearch<2> search(particles, basis_->support());
@@ -421,10 +502,54 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
                         : elasticity::weak_form::Subdomains::whole;
   weak.interior_rows = form == Form::hybrid ? elasticity::weak_form::InteriorRows::collocated
                                             : elasticity::weak_form::InteriorRows::weak;
+  weak.integration = parameters.text("quadrature") == "consistent" ? elasticity::weak_form::IntegrationRule::consistent
+                                                                   : elasticity::weak_form::IntegrationRule::paper;
   weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
   weak.penalty = parameters.real("penalty");
   weak.characteristic_length = request.statement.characteristic_length;
   return weak;
+}
+
+elasticity::ParticleSolution solve_mixed(const SolveRequest &request, const elasticity::PlaneProblem &problem,
+                                         const ParticlesPointer &particles, const BasisPointer &basis, bool regular,
+                                         double test_radius) {
+  const auto &parameters = request.parameters;
+  const std::string &subdomains = parameters.text("subdomains");
+  elasticity::mixed_form::Parameters mixed;
+  mixed.test_radius = test_radius;
+  mixed.test_function = *test_function_of(parameters, test_radius);
+  mixed.subdomains = subdomains == "shrunk" || (subdomains == "auto" && !regular)
+                         ? elasticity::weak_form::Subdomains::shrunk
+                         : elasticity::weak_form::Subdomains::whole;
+  mixed.stabilisation = parameters.real("stabilisation");
+  const auto kernel = kernel_of(parameters, regular);
+  const auto pressure_kernel = [&] {
+    for (const auto &entry : meshless::kernels::kernel_table())
+      if (entry.name == parameters.text("kernel") && entry.free_support)
+        return meshless::kernels::make_kernel(
+            entry.name,
+            parameters.has("pressure_support") ? parameters.real("pressure_support")
+                                               : meshless::kernels::support_of(kernel) - 1,
+            parameters.has("kernel_parameter") ? std::optional(parameters.real("kernel_parameter")) : std::nullopt);
+    return kernel; // its support is its own
+  }();
+  const auto order = static_cast<int>(parameters.integer("order"));
+  return elasticity::mixed_form::solve(
+      problem, particles, basis, meshless::basis::make_basis<2>(parameters.text("basis"), order - 1, pressure_kernel),
+      mixed);
+}
+
+/// What theory says of the cell before it is solved.
+std::vector<std::string> forewarnings(const SolveRequest &request, Form form, bool regular) {
+  std::vector<std::string> warnings;
+  for (const auto &region : request.statement.regions)
+    if (form != Form::mixed && locks(region.material)) {
+      warnings.push_back(locking_warning(region.material));
+      break;
+    }
+  if (!regular && request.parameters.integer("order") == 1)
+    warnings.emplace_back("order 1 on irregular particles: its errors hardly converge; order 2 does");
+  return warnings;
 }
 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
@@ -438,7 +563,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   const BasisPointer basis = meshless::basis::make_basis<2>(
       parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel_of(parameters, regular));
   const double test_radius =
-      has_subdomains(form) ? test_radius_of(parameters, regular, smoothing_length_of(parameters, regular)) : 0;
+      has_subdomains(form) ? test_radius_of(parameters, form, regular, smoothing_length_of(parameters, regular)) : 0;
   std::size_t n_enlarged = 0;
   double largest_factor = 1;
   const std::string &enlarge = parameters.text("enlarge");
@@ -457,10 +582,12 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
         form == Form::strong
             ? elasticity::strong_form::solve(problem, particles, basis,
                                              read_corner_rules(parameters.text("corner"), request.statement.corners))
-            : elasticity::weak_form::solve(problem, particles, basis,
-                                           weak_parameters(request, form, regular, test_radius));
+        : form == Form::mixed ? solve_mixed(request, problem, particles, basis, regular, test_radius)
+                              : elasticity::weak_form::solve(problem, particles, basis,
+                                                             weak_parameters(request, form, regular, test_radius));
     solution.seconds.neighbours += enlarge_seconds;
-    return std::make_unique<ParticleField>(std::move(solution), basis, points_seconds, n_enlarged, largest_factor);
+    return std::make_unique<ParticleField>(std::move(solution), basis, points_seconds, n_enlarged, largest_factor,
+                                           forewarnings(request, form, regular));
   } catch (const meshless::basis::SingularMomentMatrix &error) {
     throw Refused(error.what());
   }
@@ -475,7 +602,10 @@ Method make(std::string name, std::string meaning, std::vector<Declaration> para
   method.description.check = [form](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     check_order(context, diagnostics);
     check_support(context, diagnostics);
-    check_plane_strain(context, diagnostics);
+    if (form != Form::mixed)
+      check_plane_strain(context, diagnostics);
+    else
+      check_mixed(context, diagnostics);
     if (form == Form::strong)
       check_corner(context, diagnostics);
   };
@@ -501,6 +631,11 @@ Method hybrid() {
 
 Method weak2() {
   return make("weak2", "MLPG, differentiated shape functions (3.2.2)", weak_declarations(Form::weak2), Form::weak2);
+}
+
+Method mixed() {
+  return make("mixed", "MLPG for displacement and pressure, stabilised (PSPG): does not lock as nu -> 1/2",
+              mixed_declarations(), Form::mixed);
 }
 
 } // namespace comparisons::methods

@@ -14,4 +14,7 @@ Method weak2();
 /// The strong form inside with weak1's rows on the boundary, where collocation is inaccurate.
 Method hybrid();
 
+/// Displacement and pressure, both unknown: meshless::elasticity::mixed_form.
+Method mixed();
+
 } // namespace comparisons::methods

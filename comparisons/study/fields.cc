@@ -1,5 +1,6 @@
 #include "comparisons/study/fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace comparisons::study {
@@ -110,6 +111,12 @@ std::vector<reports::PointField> fields_on(const reports::FieldGrid &grid, const
     mises.values.push_back(von_mises(&s.values[3 * i], material));
   }
   std::vector<reports::PointField> fields{u, strain, s, mises};
+  const auto names = solution.fields();
+  if (std::find(names.begin(), names.end(), "pressure") != names.end()) {
+    reports::PointField pressure{"pressure", {}, std::vector<double>(n)};
+    solution.evaluate("pressure", grid.points, pressure.values);
+    fields.push_back(std::move(pressure));
+  }
   if (problem.exact().displacement && problem.exact().stress)
     add_errors(grid, u.values, s.values, problem.exact(), fields);
   for (auto &[name, values] : solution.own_figures())

@@ -31,6 +31,12 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   std::vector<double> stress(3 * n);
   solution.evaluate("displacement", line.points, displacement);
   solution.evaluate("stress", line.points, stress);
+  const auto names = solution.fields();
+  std::vector<double> pressure;
+  if (std::find(names.begin(), names.end(), "pressure") != names.end()) {
+    pressure.resize(n);
+    solution.evaluate("pressure", line.points, pressure);
+  }
   std::vector<Vector2> exact_displacement(n);
   std::vector<Stress2> exact_stress(n);
   const bool known = exact.displacement && exact.stress;
@@ -39,13 +45,16 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
     exact.stress(line.points, exact_stress);
   }
   std::string text = "x1,x2,u1,u2,s11,s22,s12";
-  text += known ? ",exact_u1,exact_u2,exact_s11,exact_s22,exact_s12\n" : "\n";
+  text += known ? ",exact_u1,exact_u2,exact_s11,exact_s22,exact_s12" : "";
+  text += pressure.empty() ? "\n" : ",pressure\n";
   for (std::size_t i = 0; i < n; ++i) {
     text += fmt::format("{},{},{},{},{},{},{}", line.points[i][0], line.points[i][1], displacement[2 * i],
                         displacement[2 * i + 1], stress[3 * i], stress[3 * i + 1], stress[3 * i + 2]);
     if (known)
       text += fmt::format(",{},{},{},{},{}", exact_displacement[i][0], exact_displacement[i][1], exact_stress[i][0],
                           exact_stress[i][1], exact_stress[i][2]);
+    if (!pressure.empty())
+      text += fmt::format(",{}", pressure[i]);
     text += '\n';
   }
   return text;
@@ -130,12 +139,18 @@ public:
     const double order = static_cast<double>(p.integer("order"));
     const double support = (p.has("support") ? p.real("support") : order + 2) *
                            (p.has("smoothing_length") ? p.real("smoothing_length") : 1);
-    const bool weak = p.has("quadrature_points");
+    const bool mixed = p.has("stabilisation");
+    if (mixed)
+      e.n_dofs = 3 * e.n_points;
+    const bool weak = p.has("quadrature_points") || mixed;
     const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
     const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
     const double nonzeros = e.n_dofs * 2 * neighbours;
     e.bytes = 16 * nonzeros + 9 * nonzeros * std::log2(e.n_points + 2);
-    const double quadrature = weak ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2) : 1;
+    const bool consistent = mixed || (weak && p.text("quadrature") == "consistent");
+    const double quadrature = consistent ? 24
+                              : weak     ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2)
+                                         : 1;
     e.seconds = e.n_points * quadrature * neighbours * 4e-9 + 1e-9 * nonzeros * std::sqrt(e.n_dofs);
     return e;
   }

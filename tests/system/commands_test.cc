@@ -38,7 +38,7 @@ TEST(Commands, help_and_version) {
 TEST(Commands, list) {
   const Folder folder;
   const std::vector<std::pair<std::string, std::vector<std::string>>> lists{
-      {"methods", {"strong", "weak1", "weak2", "hybrid", "fem"}},
+      {"methods", {"strong", "weak1", "weak2", "hybrid", "mixed", "fem"}},
       {"bases", {"ssph"}},
       {"kernels", {"gauss", "revised_super_gauss"}},
       {"effects", {"elasticity", "body_force", "inertia"}},
