@@ -1,5 +1,7 @@
 #include "comparisons/methods/fem.h"
 
+#include "comparisons/methods/locking.h"
+
 #include "fem_reference/elasticity/plane_elasticity.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
@@ -14,6 +16,9 @@ namespace comparisons::methods {
 namespace {
 
 namespace reference = fem_reference::elasticity;
+
+/// Displacement of degree 2, pressure of degree 1.
+constexpr const char *taylor_hood = "Q2Q1";
 using scene::Type;
 
 reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
@@ -44,9 +49,11 @@ reference::PlaneProblem translate(const problems::PlaneStatement &statement, pro
 
 class ElementField final : public Solution {
 public:
-  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds)
+  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds,
+               std::vector<std::string> warnings)
       : solution_(std::move(solution)) {
     const auto &s = solution_.seconds();
+    record_.warnings = std::move(warnings);
     record_.n_points = static_cast<std::int64_t>(n_vertices);
     record_.n_dofs = static_cast<std::int64_t>(solution_.n_dofs());
     record_.nonzeros = static_cast<std::int64_t>(solution_.nonzeros());
@@ -58,8 +65,14 @@ public:
     record_.quantities = {{"backward_error", solution_.backward_error()}};
   }
 
-  std::vector<std::string> fields() const override { return {"displacement", "stress", "recovered_stress"}; }
-  std::size_t n_components(std::string_view field) const override { return field == "displacement" ? 2 : 3; }
+  std::vector<std::string> fields() const override {
+    if (solution_.has_pressure())
+      return {"displacement", "stress", "recovered_stress", "pressure"};
+    return {"displacement", "stress", "recovered_stress"};
+  }
+  std::size_t n_components(std::string_view field) const override {
+    return field == "pressure" ? 1 : field == "displacement" ? 2 : 3;
+  }
 
   void evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
                 std::span<double> values) const override {
@@ -76,7 +89,9 @@ public:
         solution_.recovered_stress(points, s);
       for (std::size_t i = 0; i < s.size(); ++i)
         std::copy(s[i].begin(), s[i].end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    } else
+    } else if (field == "pressure" && solution_.has_pressure())
+      solution_.pressure(points, values);
+    else
       throw std::invalid_argument(
           fmt::format("no field '{}'; there are displacement, stress and recovered_stress", field));
   }
@@ -102,11 +117,19 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
   const auto problem = translate(request.statement, request.mesh());
   const double points_seconds = watch.lap();
   reference::Options options;
-  options.degree = request.parameters.text("element").back() - '0';
+  const std::string &element = request.parameters.text("element");
+  options.mixed = element == taylor_hood;
+  options.degree = options.mixed ? 2 : element.back() - '0';
   options.solver = request.parameters.text("solver") == "umfpack" ? reference::LinearSolver::umfpack
                                                                   : reference::LinearSolver::cholesky;
+  std::vector<std::string> warnings;
+  for (const auto &region : request.statement.regions)
+    if (!options.mixed && locks(region.material)) {
+      warnings.push_back(locking_warning(region.material));
+      break;
+    }
   return std::make_unique<ElementField>(reference::solve(problem, options), problem.mesh.vertices.size(),
-                                        points_seconds);
+                                        points_seconds, std::move(warnings));
 }
 
 } // namespace
@@ -118,9 +141,10 @@ Method fem() {
   method.description.parameters = {
       {.name = "element",
        .type = Type::choice,
-       .choices = {"Q1", "Q2", "Q3", "Q4"},
+       .choices = {"Q1", "Q2", "Q3", "Q4", taylor_hood},
        .default_value = "Q2",
-       .meaning = "degree of displacement and geometry; on triangles Q2 stands for P2, and so on"},
+       .meaning = "degree of displacement and geometry; on triangles Q2 stands for P2, and so on; Q2Q1: "
+                  "Taylor-Hood with a linear pressure, by UMFPACK, does not lock as nu -> 1/2"},
       {.name = "solver",
        .type = Type::choice,
        .choices = {"cholesky", "umfpack"},
@@ -130,7 +154,8 @@ Method fem() {
   method.description.effects = {"elasticity", "body_force"};
   method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     const double nu = context.material.real("nu");
-    if (context.material.text("model") == "plane strain" && nu > 0.49 && nu < 0.5)
+    if (context.method.text("element") != taylor_hood && context.material.text("model") == "plane strain" &&
+        nu > 0.49 && nu < 0.5)
       diagnostics.warning(context.material.location("nu"), "material.nu",
                           fmt::format("{} is nearly incompressible: displacement methods in plane strain lock above "
                                       "0.49, and their errors grow",

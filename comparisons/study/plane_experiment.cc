@@ -124,7 +124,7 @@ public:
     e.n_points = static_cast<double>(p.has("element") ? problem_->mesh(level).vertices.size()
                                                       : problem_->cloud(level).positions.size());
     if (p.has("element")) {
-      const double degree = p.text("element").back() - '0';
+      const double degree = p.text("element")[1] - '0';
       e.n_dofs = 2 * e.n_points * degree * degree;
       const double nonzeros = e.n_dofs * 2 * (2 * degree + 1) * (degree + 1);
       // 8 bytes for each entry of the factor: 7 log2 N a row, and more in large systems (2.6e6 unknowns take 6 GB).
@@ -159,7 +159,7 @@ private:
   void write_fields(const methods::Solution &solution, const scene::MethodRequest &request, const scene::Level &level,
                     const std::filesystem::path &series_directory, reports::Cell &cell) const {
     const auto &p = request.parameters;
-    const int degree = p.has("element") ? p.text("element").back() - '0' : 1;
+    const int degree = p.has("element") ? p.text("element")[1] - '0' : 1;
     const auto grid = solution.own_points().empty() ? grid_of(problem_->mesh(level), degree)
                                                     : grid_of(solution.own_points(), problem_->cloud(level).regions);
     const auto fields = fields_on(grid, solution, *problem_);

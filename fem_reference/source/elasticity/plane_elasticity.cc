@@ -2,6 +2,7 @@
 
 #include "../linear_algebra/direct_solvers.h"
 #include "../stopwatch.h"
+#include "mixed.h"
 #include "solution.h"
 
 #include <algorithm>
@@ -80,10 +81,32 @@ void correct(linear_algebra::DirectSolver &solver, PlaneSolution::Implementation
 }
 } // namespace
 
+namespace {
+void solve_mixed_system(const PlaneProblem &problem, PlaneSolution::Implementation &solution, Seconds &seconds) {
+  Stopwatch stopwatch;
+  solution.essential = essential_data(problem, solution.discretisation);
+  solution.loads = loads(problem, solution.discretisation);
+  seconds.assembly = stopwatch.lap();
+  auto result = solve_mixed(solution.discretisation, problem.materials, solution.essential, solution.loads);
+  solution.values = std::move(result.displacement);
+  solution.cell_pressure = std::move(result.cell_pressure);
+  solution.n_dofs = result.n_dofs;
+  solution.nonzeros = result.nonzeros;
+  solution.backward_error = result.backward_error;
+  impose(solution.essential, solution.values);
+  for (std::size_t i = 0; i < solution.values.size(); ++i)
+    if (!std::isfinite(solution.values[i]))
+      throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
+  seconds.solve = stopwatch.lap();
+}
+} // namespace
+
 PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
   if (options.degree < 1 || options.degree > max_degree)
     throw InvalidInput(fmt::format("element degree {}: expected 1 to {} (Q1 ... Q{}, P1 ... P{})", options.degree,
                                    max_degree, max_degree, max_degree));
+  if (options.mixed && options.degree != 2)
+    throw InvalidInput(fmt::format("element degree {}: Taylor-Hood elements have degree 2", options.degree));
   Seconds seconds;
   auto solution = std::make_shared<PlaneSolution::Implementation>(
       problem.materials, discretise(problem.mesh, options.degree, seconds.mesh, seconds.degrees_of_freedom));
@@ -91,6 +114,11 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
   check_materials(problem);
   check_conditions(problem);
 
+  if (options.mixed) {
+    solve_mixed_system(problem, *solution, seconds);
+    solution->seconds = seconds;
+    return PlaneSolution(std::move(solution));
+  }
   Stopwatch stopwatch;
   linear_algebra::BlockMatrix matrix(discretisation.n_nodes(), discretisation.cell_start, discretisation.cell_nodes);
   seconds.degrees_of_freedom += stopwatch.lap();
@@ -111,6 +139,7 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
     if (!std::isfinite(solution->values[i]))
       throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
   measure_residual(matrix, right_hand_side, *solution);
+  solution->n_dofs = solution->values.size();
   solution->nonzeros = 2 * matrix.n_nonzeros_lower() - static_cast<std::size_t>(matrix.n_rows());
   seconds.solve = stopwatch.lap();
   solution->seconds = seconds;

@@ -12,6 +12,7 @@ namespace {
 struct Extrapolation {
   explicit Extrapolation(const ReferenceElement &element);
 
+  std::vector<ReferenceElement::Values> shape;   ///< the displacement's shape functions at the points
   std::vector<ReferenceElement::Values> slope_1; ///< of the displacement's shape functions at the points
   std::vector<ReferenceElement::Values> slope_2;
   dealii::FullMatrix<double> matrix; ///< nodes x points
@@ -41,8 +42,7 @@ Extrapolation::Extrapolation(const ReferenceElement &element) {
       for (unsigned j = 0; j < n; ++j)
         normal(i, j) += points.weights[q] * b[i] * b[j];
     }
-    ReferenceElement::Values unused;
-    element.evaluate(points.points[q], unused, slope_1.emplace_back(), slope_2.emplace_back());
+    element.evaluate(points.points[q], shape.emplace_back(), slope_1.emplace_back(), slope_2.emplace_back());
   }
   for (unsigned a = 0; a < element.n_nodes(); ++a) {
     const auto b = basis(element.nodes()[a]);
@@ -59,7 +59,8 @@ Extrapolation::Extrapolation(const ReferenceElement &element) {
 
 std::array<double, 3> cell_stress(const Discretisation &discretisation, const Material &material,
                                   std::span<const double> displacement, std::size_t cell,
-                                  const ReferenceElement::Values &slope_1, const ReferenceElement::Values &slope_2) {
+                                  const ReferenceElement::Values &slope_1, const ReferenceElement::Values &slope_2,
+                                  std::optional<double> pressure) {
   using mesh::Point;
   const auto nodes = discretisation.nodes_of(cell);
   std::array<Point, 2> dx{}; // dx[c][d] = d x_d / d xi_c
@@ -78,12 +79,22 @@ std::array<double, 3> cell_stress(const Discretisation &discretisation, const Ma
   const auto along_2 = [&](std::size_t d) { return (dx[0][0] * du[1][d] - dx[1][0] * du[0][d]) * inverse; };
   const double e11 = along_1(0);
   const double e22 = along_2(1);
-  const double trace = material.lambda() * (e11 + e22);
+  const double trace = pressure ? *pressure : material.lambda() * (e11 + e22);
   return {trace + 2 * material.mu() * e11, trace + 2 * material.mu() * e22, material.mu() * (along_2(0) + along_1(1))};
 }
 
+std::optional<double> pressure_in_cell(const Discretisation &discretisation, std::span<const double> cell_pressure,
+                                       std::size_t cell, const ReferenceElement::Values &shape) {
+  if (cell_pressure.empty())
+    return {};
+  double sum = 0;
+  for (std::size_t a = 0; a < discretisation.nodes_of(cell).size(); ++a)
+    sum += shape[a] * cell_pressure[discretisation.cell_start[cell] + a];
+  return sum;
+}
+
 RecoveredStress::RecoveredStress(const Discretisation &discretisation, std::span<const Material> materials,
-                                 std::span<const double> displacement)
+                                 std::span<const double> displacement, std::span<const double> cell_pressure)
     : discretisation_(discretisation), value_of_(discretisation.cell_nodes.size()) {
   number_values();
   std::vector<unsigned> count(values_.size(), 0);
@@ -95,8 +106,9 @@ RecoveredStress::RecoveredStress(const Discretisation &discretisation, std::span
     const auto &material = materials[static_cast<std::size_t>(discretisation.regions[c])];
     samples.clear();
     for (std::size_t q = 0; q < extrapolation.slope_1.size(); ++q)
-      samples.push_back(
-          cell_stress(discretisation, material, displacement, c, extrapolation.slope_1[q], extrapolation.slope_2[q]));
+      samples.push_back(cell_stress(discretisation, material, displacement, c, extrapolation.slope_1[q],
+                                    extrapolation.slope_2[q],
+                                    pressure_in_cell(discretisation, cell_pressure, c, extrapolation.shape[q])));
     for (unsigned a = 0; a < extrapolation.matrix.m(); ++a) {
       const unsigned value = value_of_[discretisation.cell_start[c] + a];
       ++count[value];

@@ -4,6 +4,7 @@
 #include "fem_reference/elasticity/material.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace fem_reference::elasticity {
 class RecoveredStress {
 public:
   RecoveredStress(const Discretisation &discretisation, std::span<const Material> materials,
-                  std::span<const double> displacement);
+                  std::span<const double> displacement, std::span<const double> cell_pressure = {});
 
   /// At node a of a cell, in the order of its element.
   const std::array<double, 3> &at(std::size_t cell, std::size_t a) const {
@@ -32,8 +33,15 @@ private:
   std::vector<std::array<double, 3>> values_;
 };
 
-/// Stress in a cell from the derivatives of the shape functions along xi.
+/// Stress in a cell from the derivatives of the shape functions along xi; with the pressure of a mixed method, 2 mu eps
+/// + p I.
 std::array<double, 3> cell_stress(const Discretisation &discretisation, const Material &material,
                                   std::span<const double> displacement, std::size_t cell,
-                                  const ReferenceElement::Values &slope_1, const ReferenceElement::Values &slope_2);
+                                  const ReferenceElement::Values &slope_1, const ReferenceElement::Values &slope_2,
+                                  std::optional<double> pressure = {});
+
+/// Pressure at a point with these shape functions of the displacement, from the values at the nodes of all cells;
+/// nothing if there are none.
+std::optional<double> pressure_in_cell(const Discretisation &discretisation, std::span<const double> cell_pressure,
+                                       std::size_t cell, const ReferenceElement::Values &shape);
 } // namespace fem_reference::elasticity

@@ -11,12 +11,13 @@ const PointLocation &PlaneSolution::Implementation::location() const {
 }
 
 const RecoveredStress &PlaneSolution::Implementation::recovered() const {
-  std::call_once(recovered_built_, [this] { recovered_.emplace(discretisation, materials, values); });
+  std::call_once(recovered_built_, [this] { recovered_.emplace(discretisation, materials, values, cell_pressure); });
   return *recovered_;
 }
 
 const InternalForces &PlaneSolution::Implementation::internal() const {
-  std::call_once(internal_built_, [this] { internal_ = internal_forces(discretisation, materials, values); });
+  std::call_once(internal_built_,
+                 [this] { internal_ = internal_forces(discretisation, materials, values, cell_pressure); });
   return internal_;
 }
 
@@ -48,7 +49,7 @@ PlaneSolution::PlaneSolution(std::shared_ptr<const Implementation> implementatio
 
 std::size_t PlaneSolution::n_cells() const { return implementation_->discretisation.n_cells; }
 
-std::size_t PlaneSolution::n_dofs() const { return implementation_->values.size(); }
+std::size_t PlaneSolution::n_dofs() const { return implementation_->n_dofs; }
 
 std::size_t PlaneSolution::nonzeros() const { return implementation_->nonzeros; }
 
@@ -79,9 +80,22 @@ void PlaneSolution::displacement(std::span<const Point> points, std::span<Vector
 void PlaneSolution::stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const {
   check_same_size(points.size(), values.size());
   implementation_->for_each_point(
-      points, [&](std::size_t k, std::size_t cell, const Shape &, const Shape &slope_1, const Shape &slope_2) {
-        values[k] = cell_stress(implementation_->discretisation, implementation_->material_of(cell),
-                                implementation_->values, cell, slope_1, slope_2);
+      points, [&](std::size_t k, std::size_t cell, const Shape &shape, const Shape &slope_1, const Shape &slope_2) {
+        values[k] = cell_stress(
+            implementation_->discretisation, implementation_->material_of(cell), implementation_->values, cell, slope_1,
+            slope_2, pressure_in_cell(implementation_->discretisation, implementation_->cell_pressure, cell, shape));
+      });
+}
+
+bool PlaneSolution::has_pressure() const { return !implementation_->cell_pressure.empty(); }
+
+void PlaneSolution::pressure(std::span<const Point> points, std::span<double> values) const {
+  check_same_size(points.size(), values.size());
+  if (!has_pressure())
+    throw InvalidInput("evaluation: only Taylor-Hood elements have a pressure of their own");
+  implementation_->for_each_point(
+      points, [&](std::size_t k, std::size_t cell, const Shape &shape, const Shape &, const Shape &) {
+        values[k] = *pressure_in_cell(implementation_->discretisation, implementation_->cell_pressure, cell, shape);
       });
 }
 

@@ -34,7 +34,9 @@ public:
 
   std::vector<Material> materials;
   Discretisation discretisation;
-  std::vector<double> values; ///< unknown = 2 node + component
+  std::vector<double> values;        ///< unknown = 2 node + component
+  std::vector<double> cell_pressure; ///< of a mixed method, see MixedResult
+  std::size_t n_dofs = 0;
   Loads loads;
   EssentialData essential;
   std::size_t nonzeros = 0;

@@ -131,8 +131,9 @@ void add_to_matrix(const GradientProducts<n_nodes> &products, double lambda, dou
 template <int n_nodes>
 void add_internal_forces(const ReferenceElement &element, const Discretisation &discretisation,
                          std::span<const Material> materials, std::span<const double> displacement,
-                         InternalForces &result) {
-  const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
+                         std::span<const double> cell_pressure, InternalForces &result) {
+  const ShapeTable shape(element, cell_quadrature(element.n_vertices(), element.degree() + 1));
+  const PaddedTable<n_nodes> table(shape);
   NodeRow<n_nodes> x1{}, x2{}, u1{}, u2{}, f1, f2, g1, g2;
   double twice_energy = 0;
   for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
@@ -157,8 +158,14 @@ void add_internal_forces(const ReferenceElement &element, const Discretisation &
         e22 += g2[a] * u2[a];
         gamma += g2[a] * u1[a] + g1[a] * u2[a];
       }
-      const double s11 = jxw * (lambda * (e11 + e22) + 2 * mu * e11);
-      const double s22 = jxw * (lambda * (e11 + e22) + 2 * mu * e22);
+      double trace = lambda * (e11 + e22);
+      if (!cell_pressure.empty()) {
+        trace = 0;
+        for (int a = 0; a < n_nodes; ++a)
+          trace += shape.values[q * n_nodes + a] * cell_pressure[discretisation.cell_start[c] + a];
+      }
+      const double s11 = jxw * (trace + 2 * mu * e11);
+      const double s22 = jxw * (trace + 2 * mu * e22);
       const double s12 = jxw * mu * gamma;
       twice_energy += s11 * e11 + s22 * e22 + s12 * gamma;
       for (int a = 0; a < padded(n_nodes); ++a) {
@@ -245,11 +252,11 @@ void assemble_stiffness(const Discretisation &discretisation, std::span<const Ma
 }
 
 InternalForces internal_forces(const Discretisation &discretisation, std::span<const Material> materials,
-                               std::span<const double> displacement) {
+                               std::span<const double> displacement, std::span<const double> cell_pressure) {
   InternalForces result;
   result.forces.assign(displacement.size(), 0.);
   for_each_element(discretisation, [&](auto n_nodes, const ReferenceElement &element) {
-    add_internal_forces<n_nodes()>(element, discretisation, materials, displacement, result);
+    add_internal_forces<n_nodes()>(element, discretisation, materials, displacement, cell_pressure, result);
   });
   return result;
 }

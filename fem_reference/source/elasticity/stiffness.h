@@ -12,13 +12,14 @@ namespace fem_reference::elasticity {
 void assemble_stiffness(const Discretisation &discretisation, std::span<const Material> materials,
                         linear_algebra::BlockMatrix &matrix);
 
-/// K u cell by cell from the stress, without the matrix, and the strain energy u K u / 2, both per m of thickness.
-/// The displacement enters through its differences within each cell, so that the rounding error is that of the
-/// strain and not of u / h: one correction with this residual removes most of what a factorised matrix leaves.
+/// K u cell by cell from the stress (2 mu eps + p I with the pressure of a mixed method), without the matrix, and the
+/// strain energy u K u / 2, both per m of thickness. The displacement enters through its differences within each cell,
+/// so that the rounding error is that of the strain and not of u / h: one correction with this residual removes most of
+/// what a factorised matrix leaves.
 struct InternalForces {
   std::vector<double> forces;
   double energy = 0;
 };
 InternalForces internal_forces(const Discretisation &discretisation, std::span<const Material> materials,
-                               std::span<const double> displacement);
+                               std::span<const double> displacement, std::span<const double> cell_pressure = {});
 } // namespace fem_reference::elasticity

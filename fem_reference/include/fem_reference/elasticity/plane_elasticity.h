@@ -61,6 +61,9 @@ enum class LinearSolver {
 struct Options {
   /// 1 to 4: polynomial degree of displacement and geometry, on triangles and quadrilaterals alike.
   int degree = 2;
+  /// Taylor-Hood elements Q2/Q1, P2/P1: the pressure lambda div u is an unknown, continuous within each region. They do
+  /// not lock for nu -> 1/2. Degree 2 and UMFPACK, whatever `solver` says.
+  bool mixed = false;
   LinearSolver solver = LinearSolver::cholesky;
   /// Steps of iterative refinement with a residual computed cell by cell from the stress. One takes
   /// the time of a substitution and lowers the rounding error, which grows with the condition number
@@ -85,7 +88,7 @@ public:
   explicit PlaneSolution(std::shared_ptr<const Implementation> implementation);
 
   std::size_t n_cells() const;
-  /// Number of displacement unknowns, prescribed ones included.
+  /// Number of unknowns, prescribed ones included.
   std::size_t n_dofs() const;
   /// Entries of the full symmetric matrix, n_dofs() rows.
   std::size_t nonzeros() const;
@@ -109,6 +112,12 @@ public:
   /// In-plane stress (sigma_11, sigma_22, sigma_12) in Pa, directly from the strain of the cell that
   /// holds the point (same choice as in `displacement`) and with the material of its region, without smoothing.
   void stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const;
+
+  /// True for Taylor-Hood elements.
+  bool has_pressure() const;
+  /// p = lambda div u in Pa, positive in tension, the points as in `displacement`. Throws InvalidInput unless
+  /// has_pressure().
+  void pressure(std::span<const Point> points, std::span<double> values) const;
 
   /// As `stress`, recovered: in each cell fitted by a polynomial of one degree less at the Gauss points, where it
   /// is superconvergent, extrapolated to the nodes, averaged there over the cells of one region (Hinton & Campbell
