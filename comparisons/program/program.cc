@@ -4,6 +4,7 @@
 #include "comparisons/program/describe_command.h"
 #include "comparisons/program/options.h"
 #include "comparisons/program/run_command.h"
+#include "comparisons/program/verify_command.h"
 #include "comparisons/scene/diagnostics.h"
 
 #include <CLI/CLI.hpp>
@@ -139,6 +140,23 @@ int run_program(int argc, const char *const *argv, const study::Catalogue &catal
   init->callback([&] {
     code = guarded([&] { return write_initial_scene(name, file.empty() ? name + ".toml" : file, catalogue); });
   });
+
+  VerifyOptions verification;
+  auto *verify_command = app.add_subcommand("verify", "which hard cases each method survives, with figures");
+  verify_command->add_flag("--quick", verification.quick, "the quick cases, under a minute");
+  verify_command->add_flag("--list", verification.list, "what the cases are, their references and thresholds");
+  verify_command->add_option("--cases", verification.cases, "parts of their names, separated by commas")
+      ->delimiter(',')
+      ->type_name("LIST");
+  verify_command->add_option("--methods", verification.methods, "parts of their labels, separated by commas")
+      ->delimiter(',')
+      ->type_name("LIST");
+  verify_command->add_option("--json", verification.json, "write the matrix to this file")->type_name("FILE");
+  verify_command->add_option("--max-seconds", verification.max_seconds, "limit of one cell")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  verify_command->add_flag("--quiet", verification.quiet, "no progress");
+  verify_command->callback([&] { code = guarded([&] { return verify(verification, catalogue); }); });
 
   auto *report = app.add_subcommand("report", "rebuild the reports of a run, or put two runs side by side");
   report->add_option("RESULTS", names, "results.json of a run, or of two")->required()->expected(1, 2);

@@ -1,0 +1,168 @@
+#include "comparisons/hard_cases/case_table.h"
+
+#include "comparisons/scene/reader.h"
+#include "comparisons/study/run_scene.h"
+
+#include "meshless/dynamics/violation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace comparisons::hard_cases {
+
+namespace {
+
+/// A scene of one method; a run that its own guards end is a refusal with time, particle and reason.
+Measurement run(const study::Catalogue &catalogue, const std::string &text,
+                const std::function<double(const reports::Cell &)> &error) {
+  const auto read = scene::read_scene_text(text, "hard case", {}, study::vocabulary_of(catalogue));
+  if (!read.scene) {
+    for (const auto &finding : read.diagnostics.all())
+      throw std::logic_error(finding.key + ": " + finding.message);
+    throw std::logic_error("the scene is not valid");
+  }
+  const auto &scene = *read.scene;
+  const auto experiment = study::find_benchmark(catalogue, scene.benchmark)
+                              .make_experiment(scene, scene.problems.front(), catalogue.methods);
+  reports::Cell cell;
+  try {
+    experiment->run(scene.methods.front(), scene.levels.front(), true, {}, cell);
+  } catch (const meshless::dynamics::Violation &violation) {
+    throw NamedRefusal(violation.what());
+  } catch (const std::exception &failure) {
+    // Explicit finite elements and gas schemes name time and cell in words of their own.
+    const std::string reason = failure.what();
+    if (reason.find("t = ") != std::string::npos || reason.find("time") != std::string::npos)
+      throw NamedRefusal(reason);
+    throw;
+  }
+  Measurement result{error(cell), {}, cell.warnings};
+  return result;
+}
+
+double value_of(const std::map<std::string, double> &values, const char *name) {
+  const auto found = values.find(name);
+  return found == values.end() ? std::nan("") : found->second;
+}
+
+std::string bar(const std::string &method, const std::string &keys, const std::string &problem, const std::string &time,
+                int level) {
+  return fmt::format("schema = 1\ntitle = \"hard case\"\nbenchmark = \"bar_wave\"\n[problem]\n{}\n[[method]]\nname = "
+                     "\"{}\"\n{}\n[time]\n{}\n[study]\nlevels = [{}]\n",
+                     problem, method, keys, time, level);
+}
+
+std::string tube(const std::string &method, const std::string &problem, const std::string &material,
+                 const std::string &time) {
+  return fmt::format(
+      "schema = 1\ntitle = \"hard case\"\nbenchmark = \"shock_tube\"\n[problem]\n{}\n{}[[method]]\nname = "
+      "\"{}\"\n[time]\n{}\n[study]\nlevels = [400]\n",
+      problem, material, method, time);
+}
+
+} // namespace
+
+std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
+  std::vector<HardCase> cases;
+  const auto stress = [](const reports::Cell &cell) { return value_of(cell.errors, "stress_l1"); };
+  for (const double h : {1., 1.2, 1.4, 1.6, 1.8, 2., 2.2})
+    cases.push_back(
+        {"bar wave",
+         fmt::format("h = {:g} D", h),
+         "a pressure pulse on 200 points of a bar, SSPH rows of the revised super Gauss function; mean error "
+         "of the stress over the pulse",
+         "d'Alembert",
+         .1,
+         "10 %: the smeared fronts take a part of it that falls like 1/n",
+         {"ssph", "fem"},
+         true,
+         [&catalogue, h, stress](const std::string &m) {
+           return run(catalogue, bar(m, m == "ssph" ? fmt::format("smoothing_length = {}", h) : "", "", "", 200),
+                      stress);
+         }});
+  for (const double factor : {.5, .99, 1.01, 10.})
+    cases.push_back({"time step",
+                     fmt::format("bar, dt = {:g} of the limit", factor),
+                     "the pulse with this part of the stable step of linear elements, D / c; mean error of the stress",
+                     "d'Alembert; above the limit an end by name",
+                     .1,
+                     "10 %, as above",
+                     {"fem"},
+                     true,
+                     [&catalogue, factor, stress](const std::string &m) {
+                       return run(catalogue, bar(m, "", "", fmt::format("cfl = {}", factor), 200), stress);
+                     }});
+  cases.push_back({"time step",
+                   "gas, dt = 10 of the limit",
+                   "a shock tube with ten times the stable step",
+                   "an end by name",
+                   .1,
+                   "nothing may come out",
+                   {"sph"},
+                   true,
+                   [&catalogue](const std::string &m) {
+                     return run(catalogue, tube(m, "", "", "cfl = 10.0"),
+                                [](const reports::Cell &cell) { return value_of(cell.errors, "density_l1"); });
+                   }});
+  for (const auto *positions : {"reference", "current"})
+    cases.push_back({"Swegle",
+                     fmt::format("kernels at {} positions", positions),
+                     "a stretched bar, held at both ends, with a small disturbance; growth of it less 1",
+                     "it must not grow",
+                     1.,
+                     "twice: it may beat, but not grow",
+                     {"sph"},
+                     true,
+                     [&catalogue, positions](const std::string &m) {
+                       return run(catalogue,
+                                  bar(m, fmt::format("positions = \"{}\"", positions),
+                                      "case = \"stretched\"\nstretch = 0.01", "end = \"67 us\"\ncfl = 0.3", 60),
+                                  [](const reports::Cell &cell) { return value_of(cell.quantities, "growth") - 1; });
+                     }});
+  struct Gas {
+    const char *name, *problem, *material, *time;
+    double scale, threshold;
+  };
+  const Gas gases[] = {
+      {"Sod", "", "", "cfl = 0.3", 1, .05},
+      {"Noh",
+       "left_velocity = 1.0\nleft_pressure = 1e-6\nright_density = 1.0\nright_velocity = -1.0\nright_pressure = "
+       "1e-6\nhalf_length = 1.0\nwindow = 0.3",
+       "[material]\ngamma = 1.6666666666666667\n", "end = 0.6\ncfl = 0.3", 4, .1},
+      {"123",
+       "left_velocity = -2.0\nleft_pressure = 0.4\nright_density = 1.0\nright_velocity = 2.0\nright_pressure = 0.4", "",
+       "end = 0.15\ncfl = 0.3", 1, .1}};
+  for (const auto &gas : gases)
+    cases.push_back(
+        {"gas",
+         gas.name,
+         "a Riemann problem on 400 points; mean error of the density over its largest value",
+         "the exact solution of the Riemann problem",
+         gas.threshold,
+         "shocks are smeared over a few smoothing lengths, wall heating remains",
+         {"sph", "fem"},
+         true,
+         [&catalogue, gas](const std::string &m) {
+           return run(catalogue, tube(m, gas.problem, gas.material, gas.time),
+                      [gas](const reports::Cell &cell) { return value_of(cell.errors, "density_l1") / gas.scale; });
+         }});
+  cases.push_back({"long runs",
+                   "bar, 1e6 steps",
+                   "the pulse reflected in 50 points, a million steps; error of the energy",
+                   "the energy stays",
+                   .05,
+                   "5 %: central differences conserve a modified energy",
+                   {"ssph", "fem"},
+                   false,
+                   [&catalogue](const std::string &m) {
+                     return run(catalogue, bar(m, "", "", "end = \"0.32 s\"", 50), [](const reports::Cell &cell) {
+                       return std::abs(value_of(cell.quantities, "energy_over_work") - 1);
+                     });
+                   }});
+  return cases;
+}
+
+} // namespace comparisons::hard_cases
