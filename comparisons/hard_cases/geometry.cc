@@ -175,7 +175,9 @@ Measurement tuning_fork(const std::string &method, double width) {
       ratio(*solve("fem Q2", setup.statement, setup.cloud, setup.mesh, {{"element", std::string("Q3")}}));
   const auto solution = solve(method, setup.statement, setup.cloud, setup.mesh);
   const double value = ratio(*solution);
-  return {std::abs(value - reference), value, solution->record().warnings};
+  Measurement result{std::abs(value - reference), value, solution->record().warnings};
+  check(*solution, setup, result);
+  return result;
 }
 
 } // namespace

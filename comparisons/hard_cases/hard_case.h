@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct Measurement {
   std::optional<double> value = {};
   /// What the method itself said: warnings of the cell, from theory or from its own checks.
   std::vector<std::string> warnings = {};
+  /// Measures of the error that need no exact solution (metrics::error_indicators), to be compared with it.
+  std::map<std::string, double> indicators = {};
 };
 
 /// One hard case: what it is, what the answer must be, and who takes it.

@@ -40,6 +40,10 @@ std::string outcome_of(const HardCase &hard_case, const std::string &method) {
     if (measurement.value && std::isfinite(*measurement.value))
       json["value"] = *measurement.value;
     json["warnings"] = measurement.warnings;
+    json["indicators"] = ordered_json::object();
+    for (const auto &[name, value] : measurement.indicators)
+      if (std::isfinite(value))
+        json["indicators"][name] = value;
   } catch (const NamedRefusal &error) {
     json = refusal(error.what());
   } catch (const methods::Refused &error) {
@@ -74,7 +78,8 @@ void fill(const HardCase &hard_case, const std::string &text, MatrixCell &cell) 
   }
   cell.error = json["error"].get<double>();
   cell.warnings = json["warnings"].get<std::vector<std::string>>();
-  cell.verdict = judge(hard_case, {*cell.error, cell.value, cell.warnings});
+  cell.indicators = json["indicators"].get<std::map<std::string, double>>();
+  cell.verdict = judge(hard_case, {*cell.error, cell.value, cell.warnings, {}});
   if (cell.verdict == CellVerdict::fails)
     cell.reason = "a wrong answer without a warning";
 }

@@ -31,6 +31,7 @@ struct MatrixCell {
   double threshold = 0;
   std::string reason; ///< why refused or failed
   std::vector<std::string> warnings;
+  std::map<std::string, double> indicators;
   double seconds = 0;
 };
 

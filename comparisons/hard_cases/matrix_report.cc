@@ -84,6 +84,7 @@ nlohmann::ordered_json json_report(const std::vector<HardCase> &cases, const std
     entry["value"] = cell.value ? nlohmann::ordered_json(*cell.value) : nlohmann::ordered_json();
     entry["reason"] = cell.reason;
     entry["warnings"] = cell.warnings;
+    entry["indicators"] = cell.indicators;
     entry["seconds"] = cell.seconds;
     json["cells"].push_back(std::move(entry));
   }

@@ -1,5 +1,6 @@
 #include "comparisons/hard_cases/plane_case.h"
 
+#include "comparisons/metrics/error_indicator.h"
 #include "comparisons/problems/rectangle_grid.h"
 
 #include "meshless/cloud/particles.h"
@@ -88,11 +89,40 @@ double displacement_error(const methods::Solution &solution, const std::vector<P
   return std::sqrt(error / norm);
 }
 
+/// What the solution lets one see of its error without the exact one: into the measurement.
+void check(const methods::Solution &solution, const PlaneSetup &setup, Measurement &measurement) {
+  problems::Quadrature quadrature; // for the body force, and off the centres of cells
+  for (const auto &cell : setup.mesh.cells) {
+    Point2 centre{};
+    double twice_area = 0;
+    for (unsigned v = 0; v < cell.n_vertices; ++v) {
+      const auto &a = setup.mesh.vertices[cell.vertices[v]];
+      const auto &b = setup.mesh.vertices[cell.vertices[(v + 1) % cell.n_vertices]];
+      twice_area += a[0] * b[1] - b[0] * a[1];
+      for (std::size_t k = 0; k < 2; ++k)
+        centre[k] += a[k] / cell.n_vertices;
+    }
+    for (unsigned v = 0; v < cell.n_vertices; ++v) {
+      const auto &a = setup.mesh.vertices[cell.vertices[v]];
+      quadrature.points.push_back({.5 * (a[0] + centre[0]), .5 * (a[1] + centre[1])});
+      quadrature.weights.push_back(.5 * std::abs(twice_area) / cell.n_vertices);
+    }
+  }
+  const auto equilibrium = metrics::equilibrium(solution, setup.statement, quadrature);
+  measurement.indicators = metrics::error_indicators(solution, setup.statement, equilibrium, quadrature.points);
+  if (setup.statement.body_force && setup.mesh.cells.empty())
+    measurement.indicators.erase("force_imbalance"); // there is nothing to integrate it with
+  for (auto &doubt : metrics::doubts(measurement.indicators))
+    measurement.warnings.push_back(std::move(doubt));
+}
+
 Measurement measure(const std::string &method, const PlaneSetup &setup, const Field &field,
                     const std::map<std::string, scene::Value> &keys, const std::vector<Point2> &points) {
   const auto solution = solve(method, setup.statement, setup.cloud, setup.mesh, keys);
   const auto &at = !points.empty() ? points : setup.mesh.vertices.empty() ? setup.cloud.positions : setup.mesh.vertices;
-  return {displacement_error(*solution, at, field), {}, solution->record().warnings};
+  Measurement result{displacement_error(*solution, at, field), {}, solution->record().warnings};
+  check(*solution, setup, result);
+  return result;
 }
 
 Measurement measure_at(const std::string &method, const PlaneSetup &setup, const char *quantity, std::size_t component,
@@ -100,7 +130,9 @@ Measurement measure_at(const std::string &method, const PlaneSetup &setup, const
   const auto solution = solve(method, setup.statement, setup.cloud, setup.mesh, keys);
   std::vector<double> values(solution->n_components(quantity));
   solution->evaluate(quantity, {&point, 1}, values);
-  return {std::abs(values[component] / reference - 1), values[component], solution->record().warnings};
+  Measurement result{std::abs(values[component] / reference - 1), values[component], solution->record().warnings};
+  check(*solution, setup, result);
+  return result;
 }
 
 Field cantilever_field(double length, double height, const Material &material) {

@@ -290,12 +290,12 @@ void check_support(const scene::CheckContext &context, scene::Diagnostics &diagn
                                   reach, order, order + 1, order),
                       fmt::format("support = {}", order + 2));
   else if (method.text("smoothing_rule") == "given" && reach < static_cast<double>(order) + 0.5)
-    diagnostics.warning(method.location(method.is_given("support") ? "support" : "smoothing_length"),
-                        context.method_key + ".support",
-                        fmt::format("the support reaches {} spacings, the limit for order {}: at a boundary the {} lines "
-                                    "of particles that it needs are barely inside, and on irregular particles not",
-                                    reach, order, order + 1),
-                        fmt::format("support = {}", order + 2));
+    diagnostics.warning(
+        method.location(method.is_given("support") ? "support" : "smoothing_length"), context.method_key + ".support",
+        fmt::format("the support reaches {} spacings, the limit for order {}: at a boundary the {} lines "
+                    "of particles that it needs are barely inside, and on irregular particles not",
+                    reach, order, order + 1),
+        fmt::format("support = {}", order + 2));
 }
 
 void check_plane_strain(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
@@ -549,6 +549,10 @@ std::vector<std::string> forewarnings(const SolveRequest &request, Form form, bo
     }
   if (!regular && request.parameters.integer("order") == 1)
     warnings.emplace_back("order 1 on irregular particles: its errors hardly converge; order 2 does");
+  if (!regular && collocates(form) && form != Form::mixed && request.parameters.integer("order") == 2)
+    warnings.emplace_back(
+        "equilibrium collocated with order 2 on irregular particles: second derivatives are accurate to "
+        "the first order of h only; order 3 or a weak form is safer");
   return warnings;
 }
 

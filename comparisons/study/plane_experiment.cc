@@ -1,5 +1,6 @@
 #include "comparisons/study/plane_experiment.h"
 
+#include "comparisons/metrics/error_indicator.h"
 #include "comparisons/metrics/error_norms.h"
 #include "comparisons/metrics/force_balance.h"
 #include "comparisons/metrics/memory.h"
@@ -98,6 +99,12 @@ public:
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
     const auto equilibrium = metrics::equilibrium(*solution, problem_->statement(), quadrature);
     cell.quantities["force_imbalance"] = equilibrium.imbalance;
+    const auto indicators = metrics::error_indicators(*solution, problem_->statement(), equilibrium, quadrature.points);
+    for (const auto &[name, value] : indicators)
+      if (name != "force_imbalance")
+        cell.quantities[name] = value;
+    for (auto &doubt : metrics::doubts(indicators))
+      cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
