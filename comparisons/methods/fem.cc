@@ -11,12 +11,9 @@
 
 namespace comparisons::methods {
 
-namespace {
-
 namespace reference = fem_reference::elasticity;
-using scene::Type;
 
-reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
+reference::PlaneProblem reference_problem(const problems::PlaneStatement &statement, problems::Mesh mesh) {
   reference::PlaneProblem problem;
   for (const auto &[name, material, boundary] : statement.regions)
     problem.materials.emplace_back(material.youngs_modulus, material.poisson_ratio,
@@ -41,6 +38,10 @@ reference::PlaneProblem translate(const problems::PlaneStatement &statement, pro
   }
   return problem;
 }
+
+namespace {
+
+using scene::Type;
 
 class ElementField final : public Solution {
 public:
@@ -99,7 +100,7 @@ private:
 
 std::unique_ptr<Solution> solve(const SolveRequest &request) {
   meshless::linear_algebra::Stopwatch watch;
-  const auto problem = translate(request.statement, request.mesh());
+  const auto problem = reference_problem(request.statement, request.mesh());
   const double points_seconds = watch.lap();
   reference::Options options;
   options.degree = request.parameters.text("element").back() - '0';

@@ -427,43 +427,66 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
   return weak;
 }
 
-std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
-  const auto &parameters = request.parameters;
-  const auto problem = translate(request.statement); // first: it refuses what particles cannot do
-  meshless::linear_algebra::Stopwatch watch;
-  auto cloud = request.cloud();
-  const bool regular = cloud.regular;
-  ParticlesPointer particles = make_particles(std::move(cloud), parameters);
-  const double points_seconds = watch.lap();
-  const BasisPointer basis = meshless::basis::make_basis<2>(
-      parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel_of(parameters, regular));
-  const double test_radius =
-      has_subdomains(form) ? test_radius_of(parameters, regular, smoothing_length_of(parameters, regular)) : 0;
+/// What a particle method works on.
+struct Prepared {
+  elasticity::PlaneProblem problem;
+  ParticlesPointer particles = {};
+  BasisPointer basis = {};
+  bool regular = false;
+  double test_radius = 0;
   std::size_t n_enlarged = 0;
   double largest_factor = 1;
+  double points_seconds = 0;
+  double enlarge_seconds = 0;
+};
+
+Prepared prepare(const SolveRequest &request, Form form) {
+  const auto &parameters = request.parameters;
+  Prepared prepared{.problem = translate(request.statement)}; // first: it refuses what particles cannot do
+  meshless::linear_algebra::Stopwatch watch;
+  auto cloud = request.cloud();
+  const bool regular = prepared.regular = cloud.regular;
+  prepared.particles = make_particles(std::move(cloud), parameters);
+  prepared.points_seconds = watch.lap();
+  prepared.basis = meshless::basis::make_basis<2>(
+      parameters.text("basis"), static_cast<int>(parameters.integer("order")), kernel_of(parameters, regular));
+  if (has_subdomains(form))
+    prepared.test_radius = test_radius_of(parameters, regular, smoothing_length_of(parameters, regular));
   const std::string &enlarge = parameters.text("enlarge");
   if (enlarge == "on" || (enlarge == "auto" && !regular)) {
-    problem.require_inside(*particles);
-    auto enlarged =
-        elasticity::enlarge_where_poor(elasticity::Surroundings(problem.regions), *particles, *basis, test_radius);
-    n_enlarged = enlarged.n_enlarged;
-    largest_factor = enlarged.largest_factor;
-    if (n_enlarged > 0)
-      particles = std::make_shared<const meshless::cloud::Particles<2>>(std::move(enlarged.particles));
+    prepared.problem.require_inside(*prepared.particles);
+    auto enlarged = elasticity::enlarge_where_poor(elasticity::Surroundings(prepared.problem.regions),
+                                                   *prepared.particles, *prepared.basis, prepared.test_radius);
+    prepared.n_enlarged = enlarged.n_enlarged;
+    prepared.largest_factor = enlarged.largest_factor;
+    if (prepared.n_enlarged > 0)
+      prepared.particles = std::make_shared<const meshless::cloud::Particles<2>>(std::move(enlarged.particles));
   }
-  const double enlarge_seconds = watch.lap();
+  prepared.enlarge_seconds = watch.lap();
+  return prepared;
+}
+
+std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
+  const auto p = prepare(request, form);
   try {
-    auto solution =
-        form == Form::strong
-            ? elasticity::strong_form::solve(problem, particles, basis,
-                                             read_corner_rules(parameters.text("corner"), request.statement.corners))
-            : elasticity::weak_form::solve(problem, particles, basis,
-                                           weak_parameters(request, form, regular, test_radius));
-    solution.seconds.neighbours += enlarge_seconds;
-    return std::make_unique<ParticleField>(std::move(solution), basis, points_seconds, n_enlarged, largest_factor);
+    auto solution = form == Form::strong
+                        ? elasticity::strong_form::solve(
+                              p.problem, p.particles, p.basis,
+                              read_corner_rules(request.parameters.text("corner"), request.statement.corners))
+                        : elasticity::weak_form::solve(p.problem, p.particles, p.basis,
+                                                       weak_parameters(request, form, p.regular, p.test_radius));
+    solution.seconds.neighbours += p.enlarge_seconds;
+    return std::make_unique<ParticleField>(std::move(solution), p.basis, p.points_seconds, p.n_enlarged,
+                                           p.largest_factor);
   } catch (const meshless::basis::SingularMomentMatrix &error) {
     throw Refused(error.what());
   }
+}
+
+Form form_of(const std::string &method) {
+  if (method == "strong")
+    return Form::strong;
+  return method == "weak1" ? Form::weak1 : method == "weak2" ? Form::weak2 : Form::hybrid;
 }
 
 Method make(std::string name, std::string meaning, std::vector<Declaration> parameters, Form form) {
@@ -501,6 +524,27 @@ Method hybrid() {
 
 Method weak2() {
   return make("weak2", "MLPG, differentiated shape functions (3.2.2)", weak_declarations(Form::weak2), Form::weak2);
+}
+
+meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method) {
+  const Form form = form_of(method);
+  const auto p = prepare(request, form);
+  std::vector<double> densities;
+  for (const auto &region : request.statement.regions)
+    densities.push_back(region.material.density);
+  try {
+    auto equations =
+        form == Form::strong
+            ? elasticity::strong_form::equations_of_motion(
+                  p.problem, densities, p.particles, p.basis,
+                  read_corner_rules(request.parameters.text("corner"), request.statement.corners))
+            : elasticity::weak_form::equations_of_motion(p.problem, densities, p.particles, p.basis,
+                                                         weak_parameters(request, form, p.regular, p.test_radius));
+    equations.seconds.neighbours += p.points_seconds + p.enlarge_seconds;
+    return equations;
+  } catch (const meshless::basis::SingularMomentMatrix &error) {
+    throw Refused(error.what());
+  }
 }
 
 } // namespace comparisons::methods

@@ -6,6 +6,11 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
 namespace meshless::elasticity::weak_form {
 
 namespace {
@@ -63,6 +68,42 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   solution.backward_error = backward;
   solution.reciprocal_condition = lu.reciprocal_condition;
   return solution;
+}
+
+EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,
+                                      std::shared_ptr<const cloud::Particles<2>> particles,
+                                      std::shared_ptr<const basis::ShapeFunctions<2>> basis,
+                                      const Parameters &parameters) {
+  problem.check(true);
+  problem.require_inside(*particles);
+  if (densities.size() != problem.regions.size())
+    throw std::invalid_argument(
+        fmt::format("there are {} densities for {} regions", densities.size(), problem.regions.size()));
+  for (const double density : densities)
+    if (!(density > 0) || !std::isfinite(density))
+      throw std::invalid_argument(fmt::format("a density of {} kg/m^3; it must be positive", density));
+  linear_algebra::Stopwatch watch;
+  const std::size_t n = particles->size();
+  const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
+  Assembler assembler(problem, *surroundings, *particles, *basis, parameters);
+  assembler.set_densities({densities.begin(), densities.end()});
+  assembler.seconds.neighbours = watch.lap();
+  require_basis_at_particles(*surroundings, *particles, *basis);
+  assembler.seconds.basis += watch.lap();
+  EquationsOfMotion equations{linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
+                              linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
+                              {},
+                              particles,
+                              basis,
+                              surroundings,
+                              parameters.derivatives,
+                              {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    assembler.assemble(i, equations.stiffness, equations.force);
+    assembler.append_mass_rows(equations.mass);
+  }
+  equations.seconds = assembler.seconds;
+  return equations;
 }
 
 } // namespace meshless::elasticity::weak_form
