@@ -5,6 +5,7 @@
 #include "comparisons/benchmarks/detonation/problem.h"
 #include "comparisons/benchmarks/function_approximation/problem.h"
 #include "comparisons/benchmarks/geometry/benchmark.h"
+#include "comparisons/benchmarks/plate_vibration/problem.h"
 #include "comparisons/benchmarks/plate_with_hole/problem.h"
 #include "comparisons/benchmarks/rod_derivative/problem.h"
 #include "comparisons/benchmarks/rod_static/problem.h"
@@ -36,6 +37,7 @@ std::vector<study::Benchmark> benchmark_table() {
           rod_derivative::benchmark(),
           rod_static::benchmark(),
           rod_vibration::benchmark(),
+          plate_vibration::benchmark(),
           bar_wave::benchmark(),
           shock_tube::benchmark(),
           detonation::benchmark(),

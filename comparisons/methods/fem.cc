@@ -13,15 +13,9 @@
 
 namespace comparisons::methods {
 
-namespace {
-
 namespace reference = fem_reference::elasticity;
 
-/// Displacement of degree 2, pressure of degree 1.
-constexpr const char *taylor_hood = "Q2Q1";
-using scene::Type;
-
-reference::PlaneProblem translate(const problems::PlaneStatement &statement, problems::Mesh mesh) {
+reference::PlaneProblem reference_problem(const problems::PlaneStatement &statement, problems::Mesh mesh) {
   reference::PlaneProblem problem;
   for (const auto &[name, material, boundary] : statement.regions)
     problem.materials.emplace_back(material.youngs_modulus, material.poisson_ratio,
@@ -46,6 +40,12 @@ reference::PlaneProblem translate(const problems::PlaneStatement &statement, pro
   }
   return problem;
 }
+
+namespace {
+
+/// Displacement of degree 2, pressure of degree 1.
+constexpr const char *taylor_hood = "Q2Q1";
+using scene::Type;
 
 class ElementField final : public Solution {
 public:
@@ -114,7 +114,7 @@ private:
 
 std::unique_ptr<Solution> solve(const SolveRequest &request) {
   meshless::linear_algebra::Stopwatch watch;
-  const auto problem = translate(request.statement, request.mesh());
+  const auto problem = reference_problem(request.statement, request.mesh());
   const double points_seconds = watch.lap();
   reference::Options options;
   const std::string &element = request.parameters.text("element");

@@ -648,6 +648,12 @@ CloudReport inspect(const SolveRequest &request, Form form, bool sample) {
   return report;
 }
 
+Form form_of(const std::string &method) {
+  if (method == "strong")
+    return Form::strong;
+  return method == "weak1" ? Form::weak1 : method == "weak2" ? Form::weak2 : Form::hybrid;
+}
+
 Method make(std::string name, std::string meaning, std::vector<Declaration> parameters, Form form) {
   Method method;
   method.description.name = std::move(name);
@@ -692,6 +698,27 @@ Method weak2() {
 Method mixed() {
   return make("mixed", "MLPG for displacement and pressure, stabilised (PSPG): does not lock as nu -> 1/2",
               mixed_declarations(), Form::mixed);
+}
+
+meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method) {
+  const Form form = form_of(method);
+  const auto p = prepare(request, form);
+  std::vector<double> densities;
+  for (const auto &region : request.statement.regions)
+    densities.push_back(region.material.density);
+  try {
+    auto equations =
+        form == Form::strong
+            ? elasticity::strong_form::equations_of_motion(
+                  p.problem, densities, p.particles, p.basis,
+                  read_corner_rules(request.parameters.text("corner"), request.statement.corners))
+            : elasticity::weak_form::equations_of_motion(p.problem, densities, p.particles, p.basis,
+                                                         weak_parameters(request, form, p.regular, p.test_radius));
+    equations.seconds.neighbours += p.points_seconds + p.enlarge_seconds;
+    return equations;
+  } catch (const meshless::basis::SingularMomentMatrix &error) {
+    throw Refused(error.what());
+  }
 }
 
 } // namespace comparisons::methods

@@ -67,6 +67,33 @@ void integrate(const methods::Solution &solution, const problems::PlaneStatement
 
 double magnitude(const Force &force) { return std::hypot(force[0], force[1]); }
 
+/// Integral of the magnitude of what is applied: prescribed components of the traction, and the body force. Loads that
+/// balance within one boundary count as well.
+double applied_magnitude(const problems::PlaneStatement &statement, const problems::Quadrature &quadrature) {
+  double total = 0;
+  std::vector<Vector2> values;
+  for (const auto &[id, points] : problems::boundary_quadrature(statement)) {
+    const auto condition = statement.conditions.find(id);
+    if (condition == statement.conditions.end() || !condition->second.traction)
+      continue;
+    values.assign(points.points.size(), {});
+    condition->second.traction(points.points, points.normals, values);
+    for (std::size_t q = 0; q < values.size(); ++q) {
+      for (std::size_t k = 0; k < 2; ++k)
+        if (condition->second.displacement_prescribed[k])
+          values[q][k] = 0;
+      total += points.weights[q] * std::hypot(values[q][0], values[q][1]);
+    }
+  }
+  if (statement.body_force) {
+    values.assign(quadrature.points.size(), {});
+    statement.body_force(quadrature.points, values);
+    for (std::size_t q = 0; q < values.size(); ++q)
+      total += quadrature.weights[q] * std::hypot(values[q][0], values[q][1]);
+  }
+  return total;
+}
+
 } // namespace
 
 Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
@@ -79,19 +106,13 @@ Equilibrium equilibrium(const methods::Solution &solution, const problems::Plane
     integrate(solution, statement, quadrature, result);
 
   Force sum = result.body;
-  double loads = magnitude(result.body);
-  double all = loads;
+  double all = magnitude(result.body);
   for (const auto &[id, force] : result.boundary) {
-    const auto condition = statement.conditions.find(id);
-    Force load = force;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k)
       sum[k] += force[k];
-      if (condition != statement.conditions.end() && condition->second.displacement_prescribed[k])
-        load[k] = 0;
-    }
-    loads += magnitude(load);
     all += magnitude(force);
   }
+  const double loads = applied_magnitude(statement, quadrature);
   const double scale = loads > 1e-12 * all ? loads : all;
   result.imbalance = scale > 0 ? magnitude(sum) / scale : 0;
   return result;

@@ -28,6 +28,7 @@ struct Material {
   double youngs_modulus = 0; ///< Pa
   double poisson_ratio = 0;
   bool plane_strain = false;
+  double density = 0; ///< kg/m^3; 0 where nothing moves
 };
 
 /// Circle that a curved piece lies on, and the sense in which the piece runs around it.

@@ -24,9 +24,13 @@ void check_conditions(const PlaneProblem &problem);
 /// Each region of the mesh needs a material, and all materials one plane model. Throws InvalidInput.
 void check_materials(const PlaneProblem &problem);
 
+/// Whether a body may be left with rigid motions: in motion it may.
+enum class FreeMotions { refused, allowed };
+
 /// Interpolate the prescribed displacements at the nodes of the boundary edges. Throws InvalidInput
 /// if a value is not finite or if a connected part of the mesh is left with a free rigid motion.
-EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation);
+EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation,
+                             FreeMotions free_motions = FreeMotions::refused);
 
 /// Integrals of the shape functions with body force and tractions, and of these alone; N per m of thickness.
 struct Loads {

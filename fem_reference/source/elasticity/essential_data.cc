@@ -169,7 +169,8 @@ void check_materials(const PlaneProblem &problem) {
                                      c, cells[c].region, materials.size(), materials.size() == 1 ? "" : "s"));
 }
 
-EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation) {
+EssentialData essential_data(const PlaneProblem &problem, const Discretisation &discretisation,
+                             FreeMotions free_motions) {
   EssentialData data;
   data.prescribed.assign(2 * discretisation.n_nodes(), 0);
   data.values.assign(2 * discretisation.n_nodes(), 0.);
@@ -177,7 +178,8 @@ EssentialData essential_data(const PlaneProblem &problem, const Discretisation &
   for (const auto &[id, condition] : problem.boundary) // ascending: the lowest id comes first
     if (condition.kind[0] == ConditionKind::displacement || condition.kind[1] == ConditionKind::displacement)
       prescribe(id, condition, discretisation, data);
-  check_rigid_motions(data, discretisation);
+  if (free_motions == FreeMotions::refused)
+    check_rigid_motions(data, discretisation);
   return data;
 }
 

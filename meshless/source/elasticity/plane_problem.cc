@@ -15,7 +15,7 @@ bool same_place(const Point2 &a, const Point2 &b, double tolerance) {
 
 } // namespace
 
-void PlaneProblem::check() const {
+void PlaneProblem::check(bool may_move) const {
   if (regions.empty())
     throw std::invalid_argument("the problem has no region");
   std::array<bool, 2> fixed{};
@@ -33,7 +33,7 @@ void PlaneProblem::check() const {
             throw std::invalid_argument(fmt::format("boundary {} prescribes no displacement field", piece.id));
         }
     }
-  if (!fixed[0] || !fixed[1])
+  if (!may_move && (!fixed[0] || !fixed[1]))
     throw std::invalid_argument("the body can move freely: no boundary fixes both u1 and u2");
   Interfaces{regions};
 }

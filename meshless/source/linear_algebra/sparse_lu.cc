@@ -10,20 +10,6 @@ namespace meshless::linear_algebra {
 
 namespace {
 
-/// Frees UMFPACK's objects whatever happens.
-struct Handles {
-  void *symbolic = nullptr;
-  void *numeric = nullptr;
-
-  Handles() = default;
-  Handles(const Handles &) = delete;
-  Handles &operator=(const Handles &) = delete;
-  ~Handles() {
-    umfpack_dl_free_symbolic(&symbolic);
-    umfpack_dl_free_numeric(&numeric);
-  }
-};
-
 void check(long status, const char *step) {
   if (status == UMFPACK_WARNING_singular_matrix)
     throw SolveError("the system of equations is singular");
@@ -35,7 +21,22 @@ void check(long status, const char *step) {
 
 } // namespace
 
-LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side) {
+/// Frees UMFPACK's objects whatever happens.
+struct SparseLu::Handles {
+  void *symbolic = nullptr;
+  void *numeric = nullptr;
+  double reciprocal_condition = 0;
+
+  Handles() = default;
+  Handles(const Handles &) = delete;
+  Handles &operator=(const Handles &) = delete;
+  ~Handles() {
+    umfpack_dl_free_symbolic(&symbolic);
+    umfpack_dl_free_numeric(&numeric);
+  }
+};
+
+SparseLu::SparseLu(const SparseRows &matrix) : matrix_(matrix), handles_(std::make_unique<Handles>()) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   // Compressed rows of A are compressed columns of A^T: factorise that and solve with its transpose.
   const auto *offsets = reinterpret_cast<const SuiteSparse_long *>(matrix.offsets().data());
@@ -46,19 +47,35 @@ LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_s
   double control[UMFPACK_CONTROL];
   double info[UMFPACK_INFO];
   umfpack_dl_defaults(control);
-  Handles handles;
-  check(umfpack_dl_symbolic(n, n, offsets, columns, values, &handles.symbolic, control, info), "ordering");
-  check(umfpack_dl_numeric(offsets, columns, values, handles.symbolic, &handles.numeric, control, info),
+  check(umfpack_dl_symbolic(n, n, offsets, columns, values, &handles_->symbolic, control, info), "ordering");
+  check(umfpack_dl_numeric(offsets, columns, values, handles_->symbolic, &handles_->numeric, control, info),
         "factorisation");
-  LuResult result;
-  result.reciprocal_condition = info[UMFPACK_RCOND];
-  result.solution.resize(static_cast<std::size_t>(n));
-  check(umfpack_dl_solve(UMFPACK_At, offsets, columns, values, result.solution.data(), right_hand_side.data(),
-                         handles.numeric, control, info),
+  handles_->reciprocal_condition = info[UMFPACK_RCOND];
+}
+
+SparseLu::~SparseLu() = default;
+
+double SparseLu::reciprocal_condition() const { return handles_->reciprocal_condition; }
+
+void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> solution) const {
+  double control[UMFPACK_CONTROL];
+  double info[UMFPACK_INFO];
+  umfpack_dl_defaults(control);
+  check(umfpack_dl_solve(UMFPACK_At, reinterpret_cast<const SuiteSparse_long *>(matrix_.offsets().data()),
+                         reinterpret_cast<const SuiteSparse_long *>(matrix_.columns().data()), matrix_.values().data(),
+                         solution.data(), right_hand_side.data(), handles_->numeric, control, info),
         "solution");
-  for (std::size_t i = 0; i < result.solution.size(); ++i)
-    if (!std::isfinite(result.solution[i]))
+  for (std::size_t i = 0; i < solution.size(); ++i)
+    if (!std::isfinite(solution[i]))
       throw SolveError(fmt::format("unknown {} of the solution is not finite", i));
+}
+
+LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side) {
+  const SparseLu lu(matrix);
+  LuResult result;
+  result.reciprocal_condition = lu.reciprocal_condition();
+  result.solution.resize(static_cast<std::size_t>(matrix.n_rows()));
+  lu.solve(right_hand_side, result.solution);
   return result;
 }
 

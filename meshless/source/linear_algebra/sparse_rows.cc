@@ -71,4 +71,28 @@ double backward_error(const SparseRows &matrix, std::span<const double> x, std::
   return scale > 0 ? residual / scale : 0;
 }
 
+SparseRows combine(double a, const SparseRows &matrix_a, double b, const SparseRows &matrix_b) {
+  SparseRows sum(matrix_a.n_columns());
+  std::vector<std::int64_t> columns;
+  std::vector<double> values;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(matrix_a.n_rows()); ++row) {
+    columns.clear();
+    values.clear();
+    auto i = static_cast<std::size_t>(matrix_a.offsets()[row]);
+    auto j = static_cast<std::size_t>(matrix_b.offsets()[row]);
+    const auto end_i = static_cast<std::size_t>(matrix_a.offsets()[row + 1]);
+    const auto end_j = static_cast<std::size_t>(matrix_b.offsets()[row + 1]);
+    while (i < end_i || j < end_j) {
+      const bool from_a = j == end_j || (i < end_i && matrix_a.columns()[i] <= matrix_b.columns()[j]);
+      const bool from_b = i == end_i || (j < end_j && matrix_b.columns()[j] <= matrix_a.columns()[i]);
+      columns.push_back(from_a ? matrix_a.columns()[i] : matrix_b.columns()[j]);
+      values.push_back((from_a ? a * matrix_a.values()[i] : 0) + (from_b ? b * matrix_b.values()[j] : 0));
+      i += from_a;
+      j += from_b;
+    }
+    sum.append_row(columns, values);
+  }
+  return sum;
+}
+
 } // namespace meshless::linear_algebra

@@ -75,6 +75,53 @@ TEST(GeometryProblem, levels_refine_the_mesh) {
   }
 }
 
+std::string findings(const Folder &folder, const std::string &text) {
+  const auto file = folder.write("scene.toml", text);
+  return to_text(scene::read_scene(file, {}, study::vocabulary_of(study::shipped_catalogue())).diagnostics);
+}
+
+TEST(GeometryProblem, particles_and_reference_come_from_files) {
+  const Folder folder;
+  folder.write("square.msh", square_2());
+  folder.write("cloud.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n.5,.5\n");
+  folder.write("there.csv", "x,y,u1,u2\n.5,.5,1,2\n.25,.5,3,4\n");
+  auto scene = square_scene + "[reference]\nfile = \"there.csv\"\n" + method_and_levels;
+  const std::string own = "file = \"square.msh\"\ncloud = \"file\"\ncloud_file = \"cloud.csv\"\n";
+  scene.replace(scene.find("file = \"square.msh\"\n"), 20, own);
+  const auto made = make(folder, scene);
+  const auto cloud = made.problem->cloud(made.level("mesh"));
+  ASSERT_EQ(cloud.positions.size(), 5u);
+  EXPECT_NEAR(cloud.spacing[4], std::sqrt(.5), 1e-15);
+  EXPECT_FALSE(cloud.regular);
+  const auto &exact = made.problem->exact();
+  ASSERT_NE(exact.only_at, nullptr);
+  EXPECT_NEAR(exact.only_at->weights[0], .5, 1e-14);
+  std::vector<problems::Vector2> u(2);
+  exact.displacement(exact.only_at->points, u);
+  EXPECT_EQ(u[1], (problems::Vector2{3, 4}));
+}
+
+TEST(GeometryProblem, files_must_fit_the_geometry) {
+  const Folder folder;
+  folder.write("square.msh", square_2());
+  folder.write("outside.csv", "x,y\n0,0\n2,0\n");
+  folder.write("there.csv", "x,y,u1,u2\n.5,.5,1,2\n.5,-3,3,4\n");
+  const auto scene = [&](const std::string &geometry, const std::string &reference) {
+    auto text = square_scene + reference + method_and_levels;
+    return text.replace(text.find("file = \"square.msh\"\n"), 20, "file = \"square.msh\"\n" + geometry);
+  };
+  const auto holds = [&](const std::string &text, const std::string &part) {
+    EXPECT_NE(findings(folder, text).find(part), std::string::npos) << findings(folder, text);
+  };
+  holds(scene("cloud = \"file\"\ncloud_file = \"outside.csv\"\n", ""), "(2, 0) is outside of the domain");
+  holds(scene("cloud = \"file\"\n", ""), "needs the name of the file");
+  holds(scene("cloud_file = \"outside.csv\"\n", ""), "a file of particles is given, but cloud is 'nodes'");
+  holds(scene("cloud = \"file\"\ncloud_file = \"none.csv\"\n", ""), "cannot be read");
+  holds(scene("", "[reference]\nfile = \"there.csv\"\n"), "there.csv:3:1: the point (0.5, -3) is outside");
+  holds(scene("", "[reference]\nsolution = \"file\"\n"), "the solution 'file' needs file");
+  holds(scene("", "[reference]\nsolution = \"finer fem\"\nfile = \"there.csv\"\n"), "a file is given, but");
+}
+
 TEST(GeometryProblem, conditions_are_expressions_and_quantities) {
   const Folder folder;
   folder.write("square.msh", square_2());

@@ -50,7 +50,8 @@ struct PlaneProblem {
 
   /// @throws std::invalid_argument if there is no region, a piece has no condition, a condition lacks its displacement
   ///   field, no component of any piece is fixed, or a piece of an interface has no counterpart
-  void check() const;
+  /// @param may_move freely: a body in motion needs no supports
+  void check(bool may_move = false) const;
 
   /// @throws std::invalid_argument naming the first particle that lies outside of its region, or whose region does not
   ///   exist: its subdomain would be empty, and collocation would take it for an interior one

@@ -2,6 +2,7 @@
 
 #include "meshless/linear_algebra/sparse_rows.h"
 
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -18,6 +19,26 @@ struct LuResult {
   std::vector<double> solution;
   /// Reciprocal condition estimate of the factor U's diagonal (UMFPACK), 0 = singular.
   double reciprocal_condition = 0;
+};
+
+/// A factorised sparse matrix, for several right-hand sides. The matrix must outlive it and stay as it is.
+class SparseLu {
+public:
+  /// @throws SolveError if A is singular to rounding or memory runs out
+  explicit SparseLu(const SparseRows &matrix);
+  ~SparseLu();
+  SparseLu(const SparseLu &) = delete;
+  SparseLu &operator=(const SparseLu &) = delete;
+
+  /// x with A x = b, refined iteratively. Both have n_rows() entries.
+  /// @throws SolveError if an unknown is not finite
+  void solve(std::span<const double> right_hand_side, std::span<double> solution) const;
+  double reciprocal_condition() const;
+
+private:
+  struct Handles;
+  const SparseRows &matrix_;
+  std::unique_ptr<Handles> handles_;
 };
 
 /// Solves A x = b by sparse LU with partial pivoting (UMFPACK, multifrontal, BLAS-3), with its

@@ -40,6 +40,9 @@ private:
   std::vector<double> values_;
 };
 
+/// a A + b B for matrices of the same size.
+SparseRows combine(double a, const SparseRows &matrix_a, double b, const SparseRows &matrix_b);
+
 /// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf): how far the system must be changed to make x exact.
 double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b);
 

@@ -146,6 +146,38 @@ public:
     }
   }
 
+  /// Calls for rows of the mass, by the densities of the regions.
+  void set_densities(std::span<const double> densities) {
+    densities_ = densities;
+    mass_.resize(particles_.size());
+  }
+
+  /// -rho phi_j of those inside, whose other side is sigma_ij,j = rho a_i - b_i; nothing on boundaries.
+  void add_mass(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
+    if (rows_[particle].kind != RowKind::interior)
+      return;
+    for (std::size_t j = 0; j < group.candidates.size(); ++j)
+      if (const double value = group.values.value(j)[p]; value != 0)
+        mass_[particle].emplace_back(2 * std::int64_t{group.candidates[j]}, -densities_[region(particle)] * value);
+  }
+
+  void append_mass_rows(linear_algebra::SparseRows &mass) {
+    std::vector<std::int64_t> columns;
+    std::vector<double> values;
+    for (auto &entries : mass_) {
+      std::sort(entries.begin(), entries.end());
+      for (std::int64_t i = 0; i < 2; ++i) {
+        columns.clear();
+        values.clear();
+        for (const auto &[column, value] : entries) {
+          columns.push_back(column + i);
+          values.push_back(value);
+        }
+        mass.append_row(columns, values);
+      }
+    }
+  }
+
   /// Subtracts those of the region across the interface.
   void add_other(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
     const auto &rows = rows_[particle];
@@ -231,7 +263,45 @@ private:
   const cloud::Particles<2> &particles_;
   std::vector<Rows> rows_;
   std::vector<ParticleRows> entries_;
+  std::span<const double> densities_; ///< empty: no mass is asked for
+  std::vector<std::vector<std::pair<std::int64_t, double>>> mass_;
 };
+
+/// Evaluates the shape functions for all rows of `collocation`, whose mass too if `with_mass`.
+void add_rows(const PlaneProblem &problem, const Surroundings &surroundings, const cloud::Particles<2> &particles,
+              const basis::ShapeFunctions<2> &basis, const cloud::CandidateSearch<2> &search, bool with_mass,
+              Collocation &collocation, SolveSeconds &seconds) {
+  Stopwatch watch;
+  // Groups come in the order of cells, rows must follow the particles: they are kept until all are there.
+  std::vector<Point2> points;
+  for (std::size_t r = 0; r < problem.regions.size(); ++r) {
+    RegionFilter filter(surroundings, particles, r);
+    const basis::GroupedEvaluation<2> evaluation(basis, search, surroundings.simple() ? nullptr : &filter);
+    const auto visit = [&](const std::vector<std::size_t> &members, const basis::Wanted &wanted, auto &&add) {
+      points.clear();
+      for (const std::size_t i : members)
+        points.push_back(particles.position(i));
+      if (!points.empty())
+        evaluation.visit(
+            points, wanted,
+            [&](const auto &group) {
+              seconds.basis += watch.lap();
+              for (std::size_t p = 0; p < group.points.size(); ++p)
+                add(members[group.points[p]], p, group);
+              seconds.assembly += watch.lap();
+            },
+            "particle");
+    };
+    visit(collocation.members(r), {.value = true, .gradient = true, .hessian = true},
+          [&](std::size_t i, std::size_t p, const auto &group) {
+            collocation.add_own(i, p, group);
+            if (with_mass)
+              collocation.add_mass(i, p, group);
+          });
+    visit(collocation.across(r), {.value = true, .gradient = true},
+          [&](std::size_t i, std::size_t p, const auto &group) { collocation.add_other(i, p, group); });
+  }
+}
 
 } // namespace
 
@@ -249,31 +319,8 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   Collocation collocation(problem, *particles, prepare_rows(problem, *particles, corner_rules));
   seconds.assembly = watch.lap();
 
-  // Groups come in the order of cells, rows must follow the particles: they are kept until all are there.
-  std::vector<Point2> points;
-  for (std::size_t r = 0; r < problem.regions.size(); ++r) {
-    RegionFilter filter(*surroundings, *particles, r);
-    const basis::GroupedEvaluation<2> evaluation(*basis, search, surroundings->simple() ? nullptr : &filter);
-    const auto visit = [&](const std::vector<std::size_t> &members, const basis::Wanted &wanted, auto &&add) {
-      points.clear();
-      for (const std::size_t i : members)
-        points.push_back(particles->position(i));
-      if (!points.empty())
-        evaluation.visit(
-            points, wanted,
-            [&](const auto &group) {
-              seconds.basis += watch.lap();
-              for (std::size_t p = 0; p < group.points.size(); ++p)
-                add(members[group.points[p]], p, group);
-              seconds.assembly += watch.lap();
-            },
-            "particle");
-    };
-    visit(collocation.members(r), {.value = true, .gradient = true, .hessian = true},
-          [&](std::size_t i, std::size_t p, const auto &group) { collocation.add_own(i, p, group); });
-    visit(collocation.across(r), {.value = true, .gradient = true},
-          [&](std::size_t i, std::size_t p, const auto &group) { collocation.add_other(i, p, group); });
-  }
+  add_rows(problem, *surroundings, *particles, *basis, search, false, collocation, seconds);
+  watch.lap();
   linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
   std::vector<double> right_hand_side;
   right_hand_side.reserve(2 * n);
@@ -293,6 +340,37 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   solution.backward_error = backward;
   solution.reciprocal_condition = lu.reciprocal_condition;
   return solution;
+}
+
+EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,
+                                      std::shared_ptr<const cloud::Particles<2>> particles,
+                                      std::shared_ptr<const basis::ShapeFunctions<2>> basis,
+                                      const std::vector<CornerRule> &corner_rules) {
+  problem.check(true);
+  problem.require_inside(*particles);
+  SolveSeconds seconds;
+  Stopwatch watch;
+  const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
+  const cloud::CandidateSearch<2> search(*particles, basis->support());
+  seconds.neighbours = watch.lap();
+  Collocation collocation(problem, *particles, prepare_rows(problem, *particles, corner_rules));
+  collocation.set_densities(densities);
+  seconds.assembly = watch.lap();
+  add_rows(problem, *surroundings, *particles, *basis, search, true, collocation, seconds);
+  watch.lap();
+  const auto n = 2 * static_cast<std::int64_t>(particles->size());
+  EquationsOfMotion equations{linear_algebra::SparseRows(n),
+                              linear_algebra::SparseRows(n),
+                              {},
+                              particles,
+                              basis,
+                              surroundings,
+                              DerivativeRule::direct,
+                              seconds};
+  collocation.append_rows(equations.stiffness, equations.force);
+  collocation.append_mass_rows(equations.mass);
+  equations.seconds.assembly += watch.lap();
+  return equations;
 }
 
 } // namespace meshless::elasticity::strong_form

@@ -81,8 +81,9 @@ void Assembler::build_subdomain(bool heaviside) {
     edge_test_ = std::move(points.edge_test);
     test_gradient_ = std::move(points.gradient);
   } else
-    regions_[region_].rule.build(centre_, radius_, quadrature_,
-                                 {.interior = !heaviside || problem_.body_force, .circle = heaviside});
+    regions_[region_].rule.build(
+        centre_, radius_, quadrature_,
+        {.interior = !heaviside || problem_.body_force || !densities_.empty(), .circle = heaviside});
 }
 
 void Assembler::place(std::size_t particle) {
@@ -385,6 +386,41 @@ void Assembler::append_rows(linear_algebra::SparseRows &matrix, std::vector<doub
     matrix.append_row(columns_, entries_);
     right_hand_side.push_back(right_[i]);
   }
+}
+
+/// rho int W phi_j over the subdomain; of a collocated row -rho phi_j at the particle, for its other side is
+/// sigma_ij,j = rho a_i - b_i.
+void Assembler::integrate_mass() {
+  mass_.assign(own_.candidates.size(), 0.0);
+  const double density = densities_[region_];
+  if (interior_ && parameters_.interior_rows == InteriorRows::collocated) {
+    evaluate_basis({&centre_[0], 1}, {&centre_[1], 1}, own_, {.value = true});
+    for (std::size_t j = 0; j < mass_.size(); ++j)
+      mass_[j] = -density * values_.value(j)[0];
+    return;
+  }
+  const std::span<const double> x = quadrature_.point[0];
+  const std::span<const double> y = quadrature_.point[1];
+  for (std::size_t begin = 0; begin < x.size(); begin += batch_size) {
+    const std::size_t size = std::min(batch_size, x.size() - begin);
+    evaluate_test_function(x.subspan(begin, size), y.subspan(begin, size), false);
+    evaluate_basis(x.subspan(begin, size), y.subspan(begin, size), own_, {.value = true});
+    for (std::size_t j = 0; j < mass_.size(); ++j)
+      for (std::size_t q = 0; q < size; ++q)
+        mass_[j] += density * quadrature_.JxW[begin + q] * test_[q] * values_.value(j)[q];
+  }
+}
+
+void Assembler::append_mass_rows(linear_algebra::SparseRows &mass) {
+  Stopwatch watch;
+  integrate_mass();
+  columns_.resize(mass_.size());
+  for (std::int64_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < mass_.size(); ++j)
+      columns_[j] = 2 * std::int64_t{own_.candidates[j]} + i;
+    mass.append_row(columns_, mass_);
+  }
+  seconds.assembly += watch.lap();
 }
 
 } // namespace meshless::elasticity::weak_form

@@ -24,6 +24,11 @@ public:
   /// Appends rows 2 I and 2 I + 1.
   void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
 
+  /// Calls for rows of the mass, by the densities of the regions, kg/m^3.
+  void set_densities(std::vector<double> densities) { densities_ = std::move(densities); }
+  /// Appends rows 2 I and 2 I + 1 of the mass for the particle assembled last.
+  void append_mass_rows(linear_algebra::SparseRows &mass);
+
   SolveSeconds seconds;
 
 private:
@@ -53,6 +58,7 @@ private:
   void integrate_domain();
   void add_gradient_products(std::size_t n);
   void integrate_body_force();
+  void integrate_mass();
 
   using Part = domain::SubdomainQuadrature::Part;
   std::span<const double> coordinates(const Part &part, int k) const;
@@ -73,6 +79,8 @@ private:
   Interfaces interfaces_;
   std::vector<RegionRule> regions_;
   cloud::CandidateSearch<2> search_;
+
+  std::vector<double> densities_; ///< by region; empty: no mass is asked for
 
   std::size_t region_ = 0;
   Point2 centre_{};
@@ -97,6 +105,7 @@ private:
   std::vector<std::pair<cloud::Index, std::array<double, 4>>> row_;
   std::vector<std::int64_t> columns_;
   std::vector<double> entries_;
+  std::vector<double> mass_; ///< of candidates of the own region
 };
 
 } // namespace meshless::elasticity::weak_form

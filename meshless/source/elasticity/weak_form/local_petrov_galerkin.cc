@@ -6,7 +6,11 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace meshless::elasticity::weak_form {
 
@@ -85,6 +89,42 @@ RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &pa
     assembler.assemble(k * n / n_sampled, matrix, right_hand_side);
   const double factor = static_cast<double>(n) / static_cast<double>(n_sampled);
   return {factor * static_cast<double>(matrix.nonzeros()), once + factor * watch.lap()};
+}
+
+EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,
+                                      std::shared_ptr<const cloud::Particles<2>> particles,
+                                      std::shared_ptr<const basis::ShapeFunctions<2>> basis,
+                                      const Parameters &parameters) {
+  problem.check(true);
+  problem.require_inside(*particles);
+  if (densities.size() != problem.regions.size())
+    throw std::invalid_argument(
+        fmt::format("there are {} densities for {} regions", densities.size(), problem.regions.size()));
+  for (const double density : densities)
+    if (!(density > 0) || !std::isfinite(density))
+      throw std::invalid_argument(fmt::format("a density of {} kg/m^3; it must be positive", density));
+  linear_algebra::Stopwatch watch;
+  const std::size_t n = particles->size();
+  const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
+  Assembler assembler(problem, *surroundings, *particles, *basis, parameters);
+  assembler.set_densities({densities.begin(), densities.end()});
+  assembler.seconds.neighbours = watch.lap();
+  require_basis_at_particles(*surroundings, *particles, *basis);
+  assembler.seconds.basis += watch.lap();
+  EquationsOfMotion equations{linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
+                              linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
+                              {},
+                              particles,
+                              basis,
+                              surroundings,
+                              parameters.derivatives,
+                              {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    assembler.assemble(i, equations.stiffness, equations.force);
+    assembler.append_mass_rows(equations.mass);
+  }
+  equations.seconds = assembler.seconds;
+  return equations;
 }
 
 } // namespace meshless::elasticity::weak_form

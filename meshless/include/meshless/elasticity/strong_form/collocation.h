@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshless/elasticity/equations_of_motion.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/strong_form/corner_rules.h"
 
@@ -22,5 +23,13 @@ namespace meshless::elasticity::strong_form {
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
                        const std::vector<CornerRule> &corner_rules);
+
+/// The same rows as equations of motion: inside sigma_ij,j = rho a_i - b_i, so that the mass is -rho phi_J there and
+/// empty on boundaries. A body without supports is allowed.
+/// @param densities of the regions, kg/m^3
+EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,
+                                      std::shared_ptr<const cloud::Particles<2>> particles,
+                                      std::shared_ptr<const basis::ShapeFunctions<2>> basis,
+                                      const std::vector<CornerRule> &corner_rules = {});
 
 } // namespace meshless::elasticity::strong_form

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshless/elasticity/equations_of_motion.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/plane_problem.h"
 #include "meshless/kernels/kernel_table.h"
@@ -82,5 +83,15 @@ struct RowSample {
 /// @throws as solve
 RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
                       const basis::ShapeFunctions<2> &basis, const Parameters &parameters, std::size_t n_sampled);
+
+/// The same rows as equations of motion, with the mass rho int W_I phi_J over the subdomains (of collocated rows
+/// -rho phi_J at the particle). Rows are not divided by anything. A body without supports is allowed.
+///
+/// @param densities of the regions, kg/m^3
+/// @throws as `solve`; std::invalid_argument for a density that is not positive
+EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,
+                                      std::shared_ptr<const cloud::Particles<2>> particles,
+                                      std::shared_ptr<const basis::ShapeFunctions<2>> basis,
+                                      const Parameters &parameters);
 
 } // namespace meshless::elasticity::weak_form

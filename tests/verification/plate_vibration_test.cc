@@ -1,0 +1,111 @@
+// Vibrating plates through scenes: particles beside finite elements, and what ends a run.
+
+#include "verification/scene_runs.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace scene_runs;
+
+std::string modes(const std::string &supports, const std::string &level) {
+  return "schema = 1\nbenchmark = \"plate_vibration\"\n[problem]\nsupports = \"" + supports +
+         "\"\n[[method]]\nname = \"weak1\"\n[[method]]\nname = \"weak2\"\n[[method]]\nname = \"fem\"\nlevels = "
+         "[\"33x17\"]\n[study]\nlevels = [\"" +
+         level + "\"]\n";
+}
+
+void expect_frequencies(const std::vector<reports::Cell> &cells) {
+  for (const auto &cell : cells) {
+    // The promise of one per cent between particles and elements; quadratic elements have 2e-5.
+    for (int k = 1; k <= 6; ++k)
+      EXPECT_LT(error_of(cell, "frequency_" + std::to_string(k) + "_relative"), cell.method == "fem" ? 1e-4 : 0.01)
+          << name_of(cell) << ", mode " << k;
+    EXPECT_EQ(cell.quantities.at("n_negative"), 0) << name_of(cell);
+  }
+}
+
+TEST(PlateVibration, FreeFrequenciesAgreeAndRigidMotionsHaveNone) {
+  const auto cells = run(read(modes("free", "33x17")));
+  ASSERT_EQ(cells.size(), 3u);
+  expect_frequencies(cells);
+  for (const auto &cell : cells) // a root of rounding, eps times the largest over the smallest square, 1e4
+    EXPECT_LT(cell.quantities.at("rigid_over_first"), 1e-5) << name_of(cell);
+}
+
+TEST(PlateVibration, ClampedFrequenciesAgree) { expect_frequencies(run(read(modes("clamped", "49x25")))); }
+
+const std::string step_load = R"(
+schema = 1
+benchmark = "plate_vibration"
+[problem]
+supports = "left"
+length = "1 m"
+width = "0.2 m"
+[[method]]
+name = "weak1"
+[[method]]
+name = "fem"
+[[method]]
+label = "explicit"
+name = "fem"
+mass = "lumped"
+integration = "central_difference"
+[[method]]
+name = "strong"
+[time]
+end = "20 ms"
+cfl = 4
+[study]
+analysis = "transient"
+levels = ["21x5"]
+)";
+
+TEST(PlateVibration, ElementsKeepEnergyAndGrowthEndsTheCell) {
+  const auto cells = run(read(step_load));
+  const auto &fem = find(cells, "fem", "21x5");
+  EXPECT_EQ(fem.status, reports::Status::ok) << fem.reason;
+  EXPECT_LT(error_of(fem, "energy_relative"), 1e-10);
+  // Newmark's period is longer by (omega dt)^2 / 12, 1e-4; the crossings of higher modes blur it by a per cent.
+  EXPECT_LT(error_of(fem, "period_relative"), 0.01);
+  EXPECT_LT(error_of(fem, "mean_deflection_relative"), 0.01);
+  const auto &weak1 = find(cells, "weak1", "21x5");
+  EXPECT_EQ(weak1.status, reports::Status::failed);
+  for (const auto *part : {"at t = 0.01", "energy grows", "complex", "imaginary part", "1/s"})
+    EXPECT_NE(weak1.reason.find(part), std::string::npos) << weak1.reason;
+  EXPECT_EQ(find(cells, "strong", "21x5").status, reports::Status::refused);
+  // Four spacings over the wave speed are ten times the stable step.
+  const auto &explicit_fem = find(cells, "explicit", "21x5");
+  EXPECT_EQ(explicit_fem.status, reports::Status::failed);
+  EXPECT_NE(explicit_fem.reason.find("above the stable one"), std::string::npos) << explicit_fem.reason;
+}
+
+TEST(PlateVibration, ShorterRunsReportDriftAndSpectrum) {
+  const auto cells = run(read(step_load, {"time.end=8 ms"}));
+  const auto &weak1 = find(cells, "weak1", "21x5");
+  ASSERT_EQ(weak1.status, reports::Status::ok) << weak1.reason;
+  EXPECT_GT(std::abs(weak1.quantities.at("energy_drift")), 1e-6); // not what elements have
+  EXPECT_LT(error_of(weak1, "energy_relative"), 0.2);
+  EXPECT_GT(weak1.quantities.at("imaginary_part"), 0);
+  EXPECT_GT(weak1.quantities.at("growth_rate"), 0);
+  EXPECT_EQ(weak1.quantities.at("n_eigenvalues"), 210);
+}
+
+TEST(PlateVibration, DampingLeadsToTheStaticDeflection) {
+  // Four times the first frequency: over-damped, exp(-omega^2 t / rate) = exp(-15) at the end.
+  const auto cells = run(read(step_load + "[effects]\nelasticity = true\ninertia = true\n[effects.damping]\nrate = "
+                                          "\"4000 1/s\"\n",
+                              {"time.end=60 ms"}));
+  const auto &fem = find(cells, "fem", "21x5");
+  ASSERT_EQ(fem.status, reports::Status::ok) << fem.reason;
+  EXPECT_NEAR(fem.quantities.at("last_deflection") / fem.quantities.at("static_deflection"), 1, 1e-3);
+  EXPECT_EQ(fem.errors.count("energy_relative"), 0u);
+}
+
+TEST(PlateVibration, BadScenesAreRefused) {
+  EXPECT_ANY_THROW(read(step_load, {"method.2.mass=consistent"}));
+  EXPECT_ANY_THROW(read(step_load, {"study.levels=[\"2x2\"]"}));
+  EXPECT_ANY_THROW(read(step_load + "[effects]\nelasticity = true\n"));
+}
+
+} // namespace
