@@ -125,9 +125,10 @@ void add_component_errors(const methods::Solution &solution, const problems::Pla
 } // namespace
 
 std::map<std::string, double> error_norms(const methods::Solution &solution, const problems::PlaneProblem &problem,
-                                          const problems::Quadrature &quadrature) {
+                                          const problems::Quadrature &of_level) {
   std::map<std::string, double> errors;
   const auto &exact = problem.exact();
+  const auto &quadrature = exact.only_at ? *exact.only_at : of_level;
   if (exact.displacement)
     add_displacement_errors(solution, problem, quadrature, errors);
   if (exact.stress)

@@ -102,6 +102,8 @@ const ExactSolution &GeometryProblem::exact() const {
 Mesh GeometryProblem::mesh(const scene::Level &level) const { return geometry_->levels.at(level.text); }
 
 Cloud GeometryProblem::cloud(const scene::Level &level) const {
+  if (!geometry_->cloud.positions.empty())
+    return geometry_->cloud;
   const Mesh &mesh = geometry_->levels.at(level.text);
   Cloud cloud = nodes(mesh);
   return generated_ ? generated(mesh, cloud.positions.size()) : cloud;
@@ -176,6 +178,9 @@ Quadrature GeometryProblem::quadrature(const scene::Level &level) const {
 
 std::vector<std::string> GeometryProblem::remarks() const {
   auto remarks = geometry_->remarks;
+  if (!geometry_->reference_file.empty())
+    remarks.push_back(fmt::format("errors are relative to {}, at its {} points", geometry_->reference_file,
+                                  geometry_->exact.only_at->points.size()));
   if (!geometry_->exact.displacement)
     remarks.push_back(
         fmt::format("errors are relative to a finer finite-element solution: {} on the level {} refined {} {}",

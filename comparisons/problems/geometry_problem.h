@@ -23,6 +23,10 @@ struct ResolvedGeometry {
   PlaneStatement statement;
   /// Empty fields if the reference is to be computed.
   ExactSolution exact;
+  /// Particles from a file, for every level; no positions: there is none.
+  Cloud cloud;
+  /// The file that errors are relative to; empty: there is none.
+  std::string reference_file;
   std::vector<SampleLine> lines;
   std::vector<RequestedQuantity> quantities;
   /// Warnings about the geometry, for the report.

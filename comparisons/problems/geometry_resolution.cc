@@ -1,9 +1,12 @@
 #include "comparisons/geometry/mesh_operations.h"
+#include "comparisons/problems/cloud_file.h"
 #include "comparisons/problems/exact_solutions.h"
 #include "comparisons/problems/expression_fields.h"
 #include "comparisons/problems/geometry_checks.h"
 #include "comparisons/problems/geometry_problem.h"
+#include "comparisons/problems/reference_file.h"
 
+#include "meshless/cloud/particles.h"
 #include "meshless/domain/boundary.h"
 
 #include <fmt/format.h>
@@ -11,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -25,7 +29,7 @@ class Resolver {
 public:
   Resolver(const scene::Scene &scene, scene::Diagnostics &diagnostics)
       : scene_(scene), tables_(*scene.geometry), keys_(tables_.geometry.keys), diagnostics_(diagnostics) {
-    path_ = std::filesystem::path(scene.file).parent_path() / keys_.text("file");
+    path_ = path_of_scene() / keys_.text("file");
   }
 
   std::shared_ptr<const ResolvedGeometry> resolve() {
@@ -49,6 +53,10 @@ public:
       return nullptr;
     make_exact();
     make_statement();
+    if (!failed_) {
+      read_cloud();
+      read_reference();
+    }
     make_quantities();
     check();
     if (failed_)
@@ -306,6 +314,100 @@ private:
     else if (solution == "re-entrant corner")
       result_.exact = reentrant_corner(keys.real("stress"), material);
   }
+
+  /// The region that holds a point, or none.
+  std::optional<int> region_of(const Point2 &point) const {
+    for (std::size_t r = 0; r < boundaries_.size(); ++r)
+      if (boundaries_[r].contains(point))
+        return static_cast<int>(r);
+    return {};
+  }
+
+  void complain(const scene::Parameters &keys, const char *key, const std::string &name, const std::string &message) {
+    error(keys.location(key), name, message);
+  }
+
+  /// @return regions of the points; empty if one is outside
+  std::vector<int> regions_of(std::span<const Point2> points, const std::string &file, const scene::Parameters &keys,
+                              const char *key, const std::string &name,
+                              const std::function<std::string(std::size_t)> &place) {
+    std::vector<int> regions;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto region = region_of(points[i]);
+      if (!region) {
+        complain(keys, key, name,
+                 fmt::format("{}{}: the point ({:.6g}, {:.6g}) is outside of the domain", file, place(i), points[i][0],
+                             points[i][1]));
+        return {};
+      }
+      regions.push_back(*region);
+    }
+    return regions;
+  }
+
+  void read_reference() {
+    const auto &keys = tables_.reference.keys;
+    if (!keys.has("file"))
+      return;
+    const auto path = (path_of_scene() / keys.text("file")).string();
+    try {
+      const auto file = parse_reference_csv(csv_text(path), path);
+      auto regions = regions_of(file.points, path, keys, "file", "reference.file", [&](std::size_t i) {
+        return fmt::format(":{}:{}", file.places[i].first, file.places[i].second);
+      });
+      if (regions.empty())
+        return;
+      result_.exact = known_at_points(file, result_.shape.area, std::move(regions));
+      result_.reference_file = keys.text("file");
+    } catch (const CsvError &fault) {
+      complain(keys, "file", "reference.file", fault.what());
+    }
+  }
+
+  void read_cloud() {
+    const bool wanted = keys_.text("cloud") == "file";
+    if (wanted != keys_.has("cloud_file")) {
+      error(keys_.location(wanted ? "cloud" : "cloud_file"), "geometry.cloud_file",
+            wanted ? "cloud = \"file\" needs the name of the file"
+                   : fmt::format("a file of particles is given, but cloud is '{}'", keys_.text("cloud")),
+            wanted ? "cloud_file = \"particles.csv\"" : "cloud = \"file\"");
+      return;
+    }
+    if (!wanted)
+      return;
+    const auto path = path_of_scene() / keys_.text("cloud_file");
+    try {
+      auto file = path.extension() == ".csv" ? read_cloud_csv(path) : read_cloud_vtk(path);
+      use_cloud(std::move(file), path.string());
+    } catch (const CloudFileError &fault) {
+      complain(keys_, "cloud_file", "geometry.cloud_file", fault.what());
+    }
+  }
+
+  /// Particles without h take the mean distance to their four nearest.
+  void use_cloud(CloudFile file, const std::string &path) {
+    const auto found = regions_of(file.positions, path, keys_, "cloud_file", "geometry.cloud_file",
+                                  [&](std::size_t i) { return fmt::format(", particle {}", i); });
+    if (found.empty())
+      return;
+    const auto n_regions = static_cast<int>(boundaries_.size());
+    for (std::size_t i = 0; i < file.regions.size(); ++i)
+      if (file.regions[i] >= n_regions ||
+          !boundaries_[static_cast<std::size_t>(file.regions[i])].contains(file.positions[i])) {
+        complain(keys_, "cloud_file", "geometry.cloud_file",
+                 fmt::format("{}, particle {}: ({:.6g}, {:.6g}) is not in region {}; regions are counted from 0 as "
+                             "[[material]]",
+                             path, i, file.positions[i][0], file.positions[i][1], file.regions[i]));
+        return;
+      }
+    result_.cloud.spacing =
+        file.spacing.empty() ? meshless::cloud::smoothing_lengths_by_mean<2>(file.positions, 4, 1) : file.spacing;
+    result_.cloud.positions = std::move(file.positions);
+    if (n_regions > 1)
+      result_.cloud.regions = file.regions.empty() ? found : std::move(file.regions);
+  }
+
+  std::filesystem::path path_of_scene() const { return std::filesystem::path(scene_.file).parent_path(); }
 
   void make_quantities() {
     for (const auto &table : tables_.quantities) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,6 +131,8 @@ struct Quadrature {
 struct ExactSolution {
   VectorField displacement; ///< m
   StressField stress;       ///< Pa
+  /// A solution from a file is known at these points only; null: everywhere.
+  std::shared_ptr<const Quadrature> only_at = {};
 };
 
 /// A curve along which displacement or stress is compared and written as data.

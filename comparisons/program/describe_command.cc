@@ -12,6 +12,8 @@
 #include "comparisons/scene/reader.h"
 #include "comparisons/study/run_scene.h"
 
+#include "meshless/linear_algebra/stopwatch.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -33,19 +35,63 @@ std::optional<scene::Scene> read(const fs::path &file, const CommonOptions &opti
 }
 
 std::string bytes_text(double bytes) {
-  return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} MB", std::max(1.0, bytes / 1e6));
+  const double megabytes = std::max(0.1, bytes / 1e6);
+  return bytes >= 1e9      ? fmt::format("{:.1f} GB", bytes / 1e9)
+         : megabytes >= 10 ? fmt::format("{:.0f} MB", megabytes)
+                           : fmt::format("{:.1f} MB", megabytes);
 }
 
 std::string seconds_text(double seconds) {
   return seconds >= 60  ? fmt::format("{:.0f} min", seconds / 60)
-         : seconds >= 1 ? fmt::format("{:.0f} s", seconds)
+         : seconds >= 1 ? fmt::format("{:.1f} s", seconds)
                         : fmt::format("{:.3f} s", seconds);
+}
+
+/// Looks at the particles of cells while it is quick: the description of a scene is to take a few seconds at most.
+class Inspector {
+public:
+  std::optional<methods::CloudReport> look(const study::Experiment &experiment, const scene::MethodRequest &request,
+                                           const scene::Level &level, const study::Estimate &rough,
+                                           std::string &trouble) {
+    constexpr double seconds_per_particle = 3e-4;
+    constexpr double most_seconds = 3;
+    if (spent_ + seconds_per_particle * rough.n_points > most_seconds) {
+      ++n_left_out_;
+      return {};
+    }
+    meshless::linear_algebra::Stopwatch watch;
+    std::optional<methods::CloudReport> report;
+    try {
+      report = experiment.inspect(request, level);
+    } catch (const std::exception &error) {
+      trouble = error.what();
+    }
+    spent_ += watch.lap();
+    return report;
+  }
+
+  int n_left_out() const { return n_left_out_; }
+
+private:
+  double spent_ = 0;
+  int n_left_out_ = 0;
+};
+
+std::string cloud_row(const std::string &name, const scene::Level &level, const methods::CloudReport &cloud) {
+  return fmt::format("  {:<34} {:>8} {:>6} {:>6} {:>6} {:>10.3g} {:>10.2e}  ({:.4g}, {:.4g}){}\n", name, level.text,
+                     cloud.fewest_neighbours, cloud.median_neighbours, cloud.most_neighbours, cloud.smallest_distance,
+                     cloud.pivot_ratio, cloud.worst_point[0], cloud.worst_point[1],
+                     cloud.n_enlarged == 0 ? std::string()
+                                           : fmt::format("; h of {} particles enlarged, at most by {:.2f}",
+                                                         cloud.n_enlarged, cloud.largest_enlargement));
 }
 
 void print_cells(const scene::Scene &scene, const study::Catalogue &catalogue) {
   const auto &benchmark = study::find_benchmark(catalogue, scene.benchmark);
   const auto runs = static_cast<double>(scene.study.integer("repeats")) + 1;
   double total = 0;
+  Inspector inspector;
+  std::string clouds;
   fmt::print("\nCells ({} run each: one warm-up, {} timed)\n  {:<34} {:>8} {:>9} {:>9} {:>9} {:>9}\n", runs, runs - 1,
              "method", "level", "points", "unknowns", "memory", "time");
   for (const auto &variant : scene.problems) {
@@ -57,14 +103,28 @@ void print_cells(const scene::Scene &scene, const study::Catalogue &catalogue) {
           fmt::print("  {:<34} {:>8} refused: {}\n", name, level.text, request.refused);
           continue;
         }
-        const auto e = experiment->estimate(request, level);
+        auto e = experiment->estimate(request, level);
+        std::string trouble;
+        if (const auto cloud = inspector.look(*experiment, request, level, e, trouble)) {
+          e = experiment->estimate(request, level, *cloud);
+          clouds += cloud_row(name, level, *cloud);
+        } else if (!trouble.empty())
+          clouds += fmt::format("  {:<34} {:>8} {}\n", name, level.text, trouble);
         total += e.seconds * runs;
         fmt::print("  {:<34} {:>8} {:>9.0f} {:>9.0f} {:>9} {:>9}\n", name, level.text, e.n_points, e.n_dofs,
                    bytes_text(e.bytes), seconds_text(e.seconds));
       }
   }
-  fmt::print("Estimated time of all runs: {} (rough figures for one core; unknowns of Q2 to Q4 from the vertices)\n",
+  fmt::print("Estimated time of all runs: {} (one core; the evaluation of errors not included; unknowns of Q2 to Q4 "
+             "from the vertices)\n",
              seconds_text(total));
+  if (!clouds.empty())
+    fmt::print("\nParticles and bases (neighbours: particles in whose support one lies; pivot ratio: least pivot of a "
+               "moment matrix over its diagonal entry, 1 at best)\n  {:<34} {:>8} {:>6} {:>6} {:>6} {:>10} {:>10}  "
+               "where\n{}",
+               "method", "level", "fewest", "median", "most", "distance/h", "pivot", clouds);
+  if (inspector.n_left_out() > 0)
+    fmt::print("Not looked at, to be quick: {} larger cells; their estimates are rough.\n", inspector.n_left_out());
 }
 
 } // namespace

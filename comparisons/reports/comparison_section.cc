@@ -139,7 +139,7 @@ std::vector<std::string> further_names(const Group &group) {
   for (const Cell *cell : group.cells)
     for (const auto *map : {&cell->errors, &cell->quantities})
       for (const auto &entry : *map)
-        if (!is_compared(group, entry.first) && reportable(*cell, entry.first))
+        if (!is_compared(group, entry.first) && !entry.first.starts_with("cloud_") && reportable(*cell, entry.first))
           names.insert(entry.first);
   return {names.begin(), names.end()};
 }
@@ -230,6 +230,45 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
     document.push_back(std::move(table));
     if (const std::string wide = wide_spreads(group); !wide.empty())
       document.push_back(Paragraph{wide});
+  }
+}
+
+void append_clouds(Document &document, const std::vector<Group> &groups) {
+  bool has_heading = false;
+  for (const Group &group : groups) {
+    Table table({{"method", Align::left, true},
+                 {"level", Align::left},
+                 {"neighbours\nfewest"},
+                 {"median"},
+                 {"most"},
+                 {"least\ndistance / h"},
+                 {"least\npivot ratio"},
+                 {"at x\nm"},
+                 {"at y\nm"},
+                 {"particles\nenlarged"}});
+    for (const Cell *cell : group.cells) {
+      if (cell->status != Status::ok || !cell->quantities.contains("cloud_pivot_ratio"))
+        continue;
+      std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number};
+      for (const char *name :
+           {"cloud_fewest_neighbours", "cloud_median_neighbours", "cloud_most_neighbours", "cloud_smallest_distance",
+            "cloud_pivot_ratio", "cloud_worst_x", "cloud_worst_y", "n_enlarged"})
+        row.push_back(significant(reportable(*cell, name)));
+      table.add_row(std::move(row));
+    }
+    if (table.rows().empty())
+      continue;
+    table.drop_columns_without(no_number);
+    if (!has_heading) {
+      document.push_back(Heading{2, "Particles and bases"});
+      document.push_back(Paragraph{
+          "Neighbours are the particles in whose support a particle lies; the least distance is that of two particles "
+          "over the smoothing length; the least pivot of a moment matrix over its diagonal entry (1 at best, near 0 "
+          "where the basis hardly exists) is looked for at the particles and around them in their subdomains."});
+    }
+    has_heading = true;
+    document.push_back(Heading{3, group.title()});
+    document.push_back(std::move(table));
   }
 }
 

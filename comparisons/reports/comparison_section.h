@@ -9,6 +9,8 @@ namespace comparisons::reports {
 void append_comparison(Document &document, const std::vector<Group> &groups);
 /// Seconds by phase, with the spread of the repeats; one above 10 % is named.
 void append_phases(Document &document, const std::vector<Group> &groups);
+/// How well the particles suit the bases: neighbours, distances, moment matrices (quantities named cloud_...).
+void append_clouds(Document &document, const std::vector<Group> &groups);
 /// Errors and quantities that the comparison does not show.
 void append_further_quantities(Document &document, const std::vector<Group> &groups);
 

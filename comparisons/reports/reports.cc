@@ -87,6 +87,7 @@ Document report_document(const Results &results) {
   append_rates(document, groups);
   append_ledger(document, results);
   append_phases(document, groups);
+  append_clouds(document, groups);
   append_further_quantities(document, groups);
   std::size_t n_series = 0;
   for (const Cell &cell : results.cells)

@@ -31,11 +31,15 @@ std::vector<Declaration> geometry_declarations() {
        .meaning = "only for a .geo: what the drawing is meshed with"},
       {.name = "cloud",
        .type = Type::choice,
-       .choices = {"nodes", "generated"},
+       .choices = {"nodes", "generated", "file"},
        .default_value = "nodes",
        .meaning =
            "particles of the meshless methods: the corners of the level's cells, or as many, relaxed, of the same "
-           "local spacing"},
+           "local spacing, or those of cloud_file at every level"},
+      {.name = "cloud_file",
+       .type = Type::text,
+       .meaning = "particles: CSV with a line of names x, y and, if wanted, h (distance of neighbours) and region "
+                  "(0, 1 ... as [[material]]), or VTK with points; in m, relative to the scene's folder"},
   };
 }
 
@@ -90,8 +94,13 @@ std::vector<Declaration> reference_declarations() {
   std::vector<Declaration> keys{
       {.name = "solution",
        .type = Type::choice,
-       .choices = {"finer fem", "expressions", "elliptic hole", "re-entrant corner"},
-       .meaning = "what errors are relative to; if absent, expressions where u1 is given, else finer finite elements"}};
+       .choices = {"finer fem", "expressions", "elliptic hole", "re-entrant corner", "file"},
+       .meaning = "what errors are relative to; if absent, expressions where u1 is given, the file where one is, else "
+                  "finer finite elements"},
+      {.name = "file",
+       .type = Type::text,
+       .meaning = "CSV with a line of names: x, y, u1, u2 and, if wanted, s11, s22, s12 and weight, in SI units, "
+                  "relative to the scene's folder; errors are taken at its points"}};
   for (const auto *name : {"u1", "u2"})
     keys.push_back(
         {.name = name, .type = Type::expression, .dimension = dimensions::length, .meaning = "exact displacement"});

@@ -153,7 +153,10 @@ private:
     for (const auto *field : fields)
       if (!keys.has(field))
         missing.emplace_back(field);
-    const std::string solution = keys.has("solution") ? keys.text("solution") : missing.size() < 5 ? "expressions" : "";
+    const std::string solution = keys.has("solution") ? keys.text("solution")
+                                 : missing.size() < 5 ? "expressions"
+                                 : keys.has("file")   ? "file"
+                                                      : "";
     if (solution == "expressions" && !missing.empty())
       diagnostics_.error(
           tables.reference.location, "reference",
@@ -169,11 +172,20 @@ private:
     }
     if (solution == "elliptic hole" || solution == "re-entrant corner")
       needs("stress");
-    if (solution.empty() || solution == "finer fem")
+    if (solution == "file")
+      needs("file");
+    else if (keys.has("file"))
+      diagnostics_.error(keys.location("file"), "reference.file",
+                         fmt::format("a file is given, but the solution is '{}'", solution),
+                         "solution = \"file\", or remove the file");
+    if (solution.empty() || solution == "finer fem" || solution == "file")
       for (const auto &boundary : tables.boundaries)
         for (const auto *key : {"u1", "u2", "traction"})
           if (boundary.keys.has(key) && boundary.keys.text(key) == "reference")
-            fail(boundary, key, "the reference is a finite-element solution, which cannot give its own conditions",
+            fail(boundary, key,
+                 solution == "file"
+                     ? "the reference is known at points only, which cannot give conditions"
+                     : "the reference is a finite-element solution, which cannot give its own conditions",
                  "give [reference] expressions or a named solution");
   }
 

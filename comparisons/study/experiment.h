@@ -1,11 +1,13 @@
 #pragma once
 
+#include "comparisons/methods/cloud_report.h"
 #include "comparisons/reports/results.h"
 #include "comparisons/scene/scene.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -31,12 +33,26 @@ public:
   virtual void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
                    const std::filesystem::path &series_directory, reports::Cell &cell) const = 0;
 
+  /// Looks at the particles of a cell, and assembles a few of its rows; nothing for a cell without particles in the
+  /// plane.
+  /// @throws std::exception if the basis does not exist
+  virtual std::optional<methods::CloudReport> inspect(const scene::MethodRequest & /*request*/,
+                                                      const scene::Level & /*level*/) const {
+    return {};
+  }
+
   /// Called once before the cells are run, for what all of them share and is dear, such as a reference solution.
   virtual void prepare() const {}
 
   /// Also makes the points of the level.
   /// @throws std::exception if the level does not fit
   virtual Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const = 0;
+
+  /// The same with what `inspect` found, which tells more.
+  virtual Estimate estimate(const scene::MethodRequest &request, const scene::Level &level,
+                            const methods::CloudReport & /*cloud*/) const {
+    return estimate(request, level);
+  }
 
   /// Where a long `run` tells how far it is, a line at a time.
   void report_to(std::function<void(const std::string &)> progress) { progress_ = std::move(progress); }

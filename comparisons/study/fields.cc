@@ -117,7 +117,7 @@ std::vector<reports::PointField> fields_on(const reports::FieldGrid &grid, const
     solution.evaluate("pressure", grid.points, pressure.values);
     fields.push_back(std::move(pressure));
   }
-  if (problem.exact().displacement && problem.exact().stress)
+  if (problem.exact().displacement && problem.exact().stress && !problem.exact().only_at)
     add_errors(grid, u.values, s.values, problem.exact(), fields);
   for (auto &[name, values] : solution.own_figures())
     fields.push_back({name, {}, values});

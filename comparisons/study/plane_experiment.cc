@@ -40,7 +40,7 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   }
   std::vector<Vector2> exact_displacement(n);
   std::vector<Stress2> exact_stress(n);
-  const bool known = exact.displacement && exact.stress;
+  const bool known = exact.displacement && exact.stress && !exact.only_at;
   if (known) {
     exact.displacement(line.points, exact_displacement);
     exact.stress(line.points, exact_stress);
@@ -61,6 +61,16 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   return text;
 }
 
+void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, double> &quantities) {
+  quantities["cloud_fewest_neighbours"] = static_cast<double>(cloud.fewest_neighbours);
+  quantities["cloud_median_neighbours"] = static_cast<double>(cloud.median_neighbours);
+  quantities["cloud_most_neighbours"] = static_cast<double>(cloud.most_neighbours);
+  quantities["cloud_smallest_distance"] = cloud.smallest_distance;
+  quantities["cloud_pivot_ratio"] = cloud.pivot_ratio;
+  quantities["cloud_worst_x"] = cloud.worst_point[0];
+  quantities["cloud_worst_y"] = cloud.worst_point[1];
+}
+
 class PlaneExperiment final : public Experiment {
 public:
   PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods,
@@ -69,8 +79,7 @@ public:
 
   void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
            const std::filesystem::path &series_directory, reports::Cell &cell) const override {
-    const methods::SolveRequest solve_request{problem_->statement(), [&] { return problem_->cloud(level); },
-                                              [&] { return problem_->mesh(level); }, request.parameters};
+    const auto solve_request = to_solve(request, level);
     const auto &method = find(request.name);
     const metrics::PeakMemory memory;
     meshless::linear_algebra::Stopwatch watch;
@@ -106,6 +115,8 @@ public:
     for (auto &doubt : metrics::doubts(indicators))
       cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
+    if (method.inspect)
+      add_cloud_quality(method.inspect(solve_request, false), cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
     const double evaluation = watch.lap();
@@ -123,46 +134,71 @@ public:
 
   void prepare() const override { problem_->exact(); }
 
-  /// Matrix entries from the mean number of neighbours; a sparse LU in two dimensions fills like
-  /// N log N and works like N^1.5; the constants were measured on one core of a 2 GHz server.
+  std::optional<methods::CloudReport> inspect(const scene::MethodRequest &request,
+                                              const scene::Level &level) const override {
+    const auto &method = find(request.name);
+    if (!method.inspect)
+      return {};
+    return method.inspect(to_solve(request, level), true);
+  }
+
+  /// Constants were measured on one core of a 2 GHz server.
   Estimate estimate(const scene::MethodRequest &request, const scene::Level &level) const override {
     Estimate e;
     const auto &p = request.parameters;
-    e.n_points = static_cast<double>(p.has("element") ? problem_->mesh(level).vertices.size()
-                                                      : problem_->cloud(level).positions.size());
-    if (p.has("element")) {
-      const double degree = p.text("element")[1] - '0';
-      e.n_dofs = 2 * e.n_points * degree * degree;
-      const double nonzeros = e.n_dofs * 2 * (2 * degree + 1) * (degree + 1);
-      // 8 bytes for each entry of the factor: 7 log2 N a row, and more in large systems (2.6e6 unknowns take 6 GB).
-      const double log = std::log2(e.n_dofs + 2);
-      e.bytes = 12 * nonzeros + 60 * e.n_dofs * log * (1 + std::max(0.0, log - 12) / 20);
-      e.seconds = 5e-6 * e.n_dofs * (1 + std::sqrt(e.n_dofs) / 2000);
-      return e;
-    }
-    e.n_dofs = 2 * e.n_points;
-    if (!p.has("order"))
-      return e;
-    const double order = static_cast<double>(p.integer("order"));
-    const double support = (p.has("support") ? p.real("support") : order + 2) *
-                           (p.has("smoothing_length") ? p.real("smoothing_length") : 1);
-    const bool mixed = p.has("stabilisation");
-    if (mixed)
-      e.n_dofs = 3 * e.n_points;
-    const bool weak = p.has("quadrature_points") || mixed;
-    const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
-    const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
-    const double nonzeros = e.n_dofs * 2 * neighbours;
-    e.bytes = 16 * nonzeros + 9 * nonzeros * std::log2(e.n_points + 2);
-    const bool consistent = mixed || (weak && p.text("quadrature") == "consistent");
-    const double quadrature = consistent ? 24
-                              : weak     ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2)
-                                         : 1;
-    e.seconds = e.n_points * quadrature * neighbours * 4e-9 + 1e-9 * nonzeros * std::sqrt(e.n_dofs);
+    const bool elements = p.has("element");
+    e.n_points =
+        static_cast<double>(elements ? problem_->mesh(level).vertices.size() : problem_->cloud(level).positions.size());
+    if (elements)
+      estimate_elements(p.text("element")[1] - '0', e);
+    else if (p.has("order"))
+      estimate_particles(p, e);
+    return e;
+  }
+
+  Estimate estimate(const scene::MethodRequest &request, const scene::Level &level,
+                    const methods::CloudReport &cloud) const override {
+    auto e = estimate(request, level);
+    estimate_system(cloud.nonzeros, e);
+    e.seconds += cloud.seconds;
     return e;
   }
 
 private:
+  static void estimate_elements(double degree, Estimate &e) {
+    e.n_dofs = 2 * e.n_points * degree * degree;
+    const double nonzeros = e.n_dofs * 2 * (2 * degree + 1) * (degree + 1);
+    // 8 bytes for each entry of the factor: 7 log2 N a row, and more in large systems (2.6e6 unknowns take 6 GB).
+    const double log = std::log2(e.n_dofs + 2);
+    e.bytes = 2e5 + 12 * nonzeros + 60 * e.n_dofs * log * (1 + std::max(0.0, log - 12) / 20);
+    e.seconds = 5e-6 * e.n_dofs * (1 + std::sqrt(e.n_dofs) / 2000);
+  }
+
+  /// Matrix entries from the mean number of neighbours.
+  static void estimate_particles(const scene::Parameters &p, Estimate &e) {
+    e.n_dofs = 2 * e.n_points;
+    const double order = static_cast<double>(p.integer("order"));
+    const double support = (p.has("support") ? p.real("support") : order + 2) *
+                           (p.has("smoothing_length") ? p.real("smoothing_length") : 1);
+    const bool weak = p.has("quadrature_points");
+    const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
+    const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
+    estimate_system(e.n_dofs * 2 * neighbours, e);
+    const double quadrature = weak ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2) : 10;
+    e.seconds += e.n_points * quadrature * neighbours * 8e-9;
+  }
+
+  /// A sparse LU in two dimensions fills like N log N and works like N^1.5.
+  static void estimate_system(double nonzeros, Estimate &e) {
+    e.bytes = 2e5 + 16 * nonzeros + 9 * nonzeros * std::log2(e.n_points + 2);
+    e.seconds = nonzeros * (1e-7 + 3e-9 * std::sqrt(e.n_dofs));
+  }
+
+  methods::SolveRequest to_solve(const scene::MethodRequest &request, const scene::Level &level) const {
+    return {problem_->statement(), [this, &level] { return problem_->cloud(level); },
+            [this, &level] { return problem_->mesh(level); }, request.parameters};
+  }
+
   void write_fields(const methods::Solution &solution, const scene::MethodRequest &request, const scene::Level &level,
                     const std::filesystem::path &series_directory, reports::Cell &cell) const {
     const auto &p = request.parameters;

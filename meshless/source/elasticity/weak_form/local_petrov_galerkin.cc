@@ -6,6 +6,8 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
+#include <algorithm>
+
 namespace meshless::elasticity::weak_form {
 
 namespace {
@@ -63,6 +65,26 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   solution.backward_error = backward;
   solution.reciprocal_condition = lu.reciprocal_condition;
   return solution;
+}
+
+RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                      const basis::ShapeFunctions<2> &basis, const Parameters &parameters, std::size_t n_sampled) {
+  problem.check();
+  problem.require_inside(particles);
+  const std::size_t n = particles.size();
+  n_sampled = std::min(n_sampled, n);
+  if (n_sampled == 0)
+    return {};
+  linear_algebra::Stopwatch watch;
+  const Surroundings surroundings(problem.regions);
+  Assembler assembler(problem, surroundings, particles, basis, parameters);
+  const double once = watch.lap();
+  linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
+  std::vector<double> right_hand_side;
+  for (std::size_t k = 0; k < n_sampled; ++k)
+    assembler.assemble(k * n / n_sampled, matrix, right_hand_side);
+  const double factor = static_cast<double>(n) / static_cast<double>(n_sampled);
+  return {factor * static_cast<double>(matrix.nonzeros()), once + factor * watch.lap()};
 }
 
 } // namespace meshless::elasticity::weak_form

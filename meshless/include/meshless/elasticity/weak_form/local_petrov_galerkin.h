@@ -72,4 +72,15 @@ struct Parameters {
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters);
 
+/// What the rows of all particles take, from those of a few.
+struct RowSample {
+  double nonzeros = 0;
+  double seconds = 0;
+};
+
+/// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.
+/// @throws as solve
+RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                      const basis::ShapeFunctions<2> &basis, const Parameters &parameters, std::size_t n_sampled);
+
 } // namespace meshless::elasticity::weak_form
