@@ -141,6 +141,15 @@ int run_program(int argc, const char *const *argv, const study::Catalogue &catal
     code = guarded([&] { return write_initial_scene(name, file.empty() ? name + ".toml" : file, catalogue); });
   });
 
+  auto *report = app.add_subcommand("report", "rebuild the reports of a run, or put two runs side by side");
+  report->add_option("RESULTS", names, "results.json of a run, or of two")->required()->expected(1, 2);
+  add_common_options(*report, options);
+  report->callback([&] {
+    code = guarded([&] {
+      return names.size() == 2 ? compare_runs(names[0], names[1], options) : rebuild_report(names[0], options);
+    });
+  });
+
   VerifyOptions verification;
   auto *verify_command = app.add_subcommand("verify", "which hard cases each method survives, with figures");
   verify_command->add_flag("--quick", verification.quick, "the quick cases, under a minute");
@@ -157,15 +166,6 @@ int run_program(int argc, const char *const *argv, const study::Catalogue &catal
       ->type_name("SECONDS");
   verify_command->add_flag("--quiet", verification.quiet, "no progress");
   verify_command->callback([&] { code = guarded([&] { return verify(verification, catalogue); }); });
-
-  auto *report = app.add_subcommand("report", "rebuild the reports of a run, or put two runs side by side");
-  report->add_option("RESULTS", names, "results.json of a run, or of two")->required()->expected(1, 2);
-  add_common_options(*report, options);
-  report->callback([&] {
-    code = guarded([&] {
-      return names.size() == 2 ? compare_runs(names[0], names[1], options) : rebuild_report(names[0], options);
-    });
-  });
 
   if (!names_a_command(app, argc, argv))
     return usage_error;

@@ -23,7 +23,7 @@ TEST(Commands, help_and_version) {
   const Folder folder;
   const auto help = run_here({"--help"}, folder.path());
   EXPECT_EQ(help.exit_code, 0);
-  for (const auto *word : {"run", "compare", "check", "explain", "list", "init", "report", "Exit codes"})
+  for (const auto *word : {"run", "compare", "check", "explain", "list", "init", "report", "verify", "Exit codes"})
     EXPECT_TRUE(has(help.out, word)) << word;
   EXPECT_EQ(help.err, "");
   const auto version = run_program({"--version"}, folder.path());

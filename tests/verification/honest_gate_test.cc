@@ -120,8 +120,16 @@ order = [2, 3]
 name = "hybrid"
 order = [2, 3]
 [[method]]
+name = "mixed"
+order = [2, 3]
+[[method]]
+name = "weak1"
+label = "consistent"
+quadrature = "consistent"
+order = [2, 3]
+[[method]]
 name = "fem"
-element = ["Q1", "Q2", "Q3"]
+element = ["Q1", "Q2", "Q2Q1", "Q3"]
 [study]
 levels = ["16x4"]
 )";

@@ -85,7 +85,7 @@ TEST(Mixed, cook_near_incompressibility_on_jittered_clouds) {
   // 18.51 at both (computed at high order); 2 % on every one of 20 clouds of 625 particles, jittered by 25 %.
   for (const double nu : {.4999, .499999}) {
     const Cook cook{Material(1, nu, PlaneModel::plane_strain)};
-    for (std::uint64_t seed = 0; seed < 4; ++seed) // all 20 in `petrov verify`
+    for (std::uint64_t seed = 0; seed < 2; ++seed) // all 20 in `petrov verify`
       EXPECT_NEAR(Cook::tip(solve_mixed(cook.problem(), even_cloud(Cook::boundary(), 625, .25, seed), {})), 18.51,
                   .02 * 18.51)
           << nu << ", seed " << seed;

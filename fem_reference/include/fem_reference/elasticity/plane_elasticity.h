@@ -61,14 +61,14 @@ enum class LinearSolver {
 struct Options {
   /// 1 to 4: polynomial degree of displacement and geometry, on triangles and quadrilaterals alike.
   int degree = 2;
-  /// Taylor-Hood elements Q2/Q1, P2/P1: the pressure lambda div u is an unknown, continuous within each region. They do
-  /// not lock for nu -> 1/2. Degree 2 and UMFPACK, whatever `solver` says.
-  bool mixed = false;
   LinearSolver solver = LinearSolver::cholesky;
   /// Steps of iterative refinement with a residual computed cell by cell from the stress. One takes
   /// the time of a substitution and lowers the rounding error, which grows with the condition number
   /// of the matrix, by one to three digits.
   int corrections = 1;
+  /// Taylor-Hood elements Q2/Q1, P2/P1: the pressure lambda div u is an unknown, continuous within each region. They do
+  /// not lock for nu -> 1/2. Degree 2 and UMFPACK, whatever `solver` says.
+  bool mixed = false;
 };
 
 /// Wall-clock seconds by phase.

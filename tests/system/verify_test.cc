@@ -1,0 +1,63 @@
+// `petrov verify` as a user types it.
+
+#include "system/program_here.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace system_tests;
+
+bool has(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
+
+TEST(Verify, prints_the_matrix_and_writes_it_as_data) {
+  const Folder folder;
+  const auto ended =
+      run_program({"verify", "--quick", "--cases", "cook nu=0.499999", "--methods", "mixed,fem", "--json", "matrix.json"},
+                  folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const auto *part : {"incompressibility", "u2(48, 52) = 18.508", "mixed", "fem Q2Q1", "holds",
+                           "warned: nu = 0.499999", "4 cells", "0 fail"})
+    EXPECT_TRUE(has(ended.out, part)) << part << "\n" << ended.out;
+  EXPECT_TRUE(has(ended.err, "cook")); // progress
+  const auto json = nlohmann::json::parse(contents(folder / "matrix.json"));
+  EXPECT_EQ(json.at("kind"), "hard_cases");
+  EXPECT_EQ(json.at("cells").size(), 4u); // mixed, Q1, Q2, Q2Q1
+  int total = 0;
+  for (const auto &[verdict, n] : json.at("counts").items())
+    total += n.get<int>();
+  EXPECT_EQ(total, static_cast<int>(json.at("cells").size()));
+  for (const auto &cell : json.at("cells")) {
+    EXPECT_TRUE(cell.at("error").is_number());
+    EXPECT_TRUE(cell.at("indicators").is_object());
+  }
+}
+
+TEST(Verify, lists_its_cases_without_running_them) {
+  const Folder folder;
+  const auto ended = run_program({"verify", "--list"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  for (const auto *part : {"patch: linear, grid", "reference:", "threshold", "Swegle", "material contrast"})
+    EXPECT_TRUE(has(ended.out, part)) << part;
+}
+
+TEST(Verify, says_when_nothing_is_selected) {
+  const Folder folder;
+  const auto ended = run_program({"verify", "--cases", "no such case"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_TRUE(has(ended.err, "petrov verify --list"));
+  EXPECT_EQ(run_program({"verify", "--max-seconds", "-1"}, folder.path()).exit_code, 2);
+}
+
+TEST(Verify, a_hang_is_a_failure_with_exit_code_4) {
+  // A limit that no cell can keep stands for a hang.
+  const Folder folder;
+  const auto ended = run_program({"verify", "--cases", "thick cylinder nu=0.3", "--methods", "weak1 consistent",
+                                  "--max-seconds", "0.001", "--quiet"},
+                                 folder.path());
+  EXPECT_EQ(ended.exit_code, 4);
+  EXPECT_TRUE(has(ended.out, "ended after max_seconds")) << ended.out;
+}
+
+} // namespace
