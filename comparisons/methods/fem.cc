@@ -20,6 +20,7 @@ reference::PlaneProblem reference_problem(const problems::PlaneStatement &statem
                                    material.plane_strain ? reference::PlaneModel::plane_strain
                                                          : reference::PlaneModel::plane_stress);
   problem.body_force = statement.body_force;
+  problem.thermal_strain = statement.thermal_strain;
   problem.mesh.vertices = std::move(mesh.vertices);
   for (const auto &cell : mesh.cells)
     problem.mesh.cells.push_back({cell.vertices, cell.n_vertices, cell.region});
@@ -45,8 +46,8 @@ using scene::Type;
 
 class ElementField final : public Solution {
 public:
-  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds)
-      : solution_(std::move(solution)) {
+  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds, bool thermal)
+      : solution_(std::move(solution)), thermal_(thermal) {
     const auto &s = solution_.seconds();
     record_.n_points = static_cast<std::int64_t>(n_vertices);
     record_.n_dofs = static_cast<std::int64_t>(solution_.n_dofs());
@@ -92,10 +93,14 @@ public:
     return balance;
   }
 
-  std::optional<double> own_strain_energy() const override { return solution_.strain_energy(); }
+  /// Not with a free strain: the elements' sum is of the whole strain.
+  std::optional<double> own_strain_energy() const override {
+    return thermal_ ? std::nullopt : std::optional(solution_.strain_energy());
+  }
 
 private:
   reference::PlaneSolution solution_;
+  bool thermal_;
 };
 
 std::unique_ptr<Solution> solve(const SolveRequest &request) {
@@ -107,7 +112,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
   options.solver = request.parameters.text("solver") == "umfpack" ? reference::LinearSolver::umfpack
                                                                   : reference::LinearSolver::cholesky;
   return std::make_unique<ElementField>(reference::solve(problem, options), problem.mesh.vertices.size(),
-                                        points_seconds);
+                                        points_seconds, static_cast<bool>(problem.thermal_strain));
 }
 
 } // namespace
@@ -128,7 +133,7 @@ Method fem() {
        .default_value = "cholesky",
        .meaning = "sparse direct solver: CHOLMOD or UMFPACK"},
   };
-  method.description.effects = {"elasticity", "body_force"};
+  method.description.effects = {"elasticity", "body_force", "thermal_expansion"};
   method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     const double nu = context.material.real("nu");
     if (context.material.text("model") == "plane strain" && nu > 0.49 && nu < 0.5)

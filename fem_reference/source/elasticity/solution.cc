@@ -34,6 +34,18 @@ void PlaneSolution::Implementation::for_each_point(std::span<const Point> points
   points_outside = outside;
 }
 
+void PlaneSolution::Implementation::subtract_thermal(std::span<const Point> points,
+                                                     std::span<std::array<double, 3>> stress) const {
+  if (!thermal_strain)
+    return;
+  std::vector<double> free(points.size());
+  thermal_strain(points, free);
+  for_each_point(points, [&](std::size_t k, std::size_t cell, const auto &, const auto &, const auto &) {
+    for (std::size_t d = 0; d < 2; ++d)
+      stress[k][d] -= material_of(cell).thermal_modulus() * free[k];
+  });
+}
+
 namespace {
 using Shape = ReferenceElement::Values;
 
@@ -83,6 +95,7 @@ void PlaneSolution::stress(std::span<const Point> points, std::span<std::array<d
         values[k] = cell_stress(implementation_->discretisation, implementation_->material_of(cell),
                                 implementation_->values, cell, slope_1, slope_2);
       });
+  implementation_->subtract_thermal(points, values);
 }
 
 void PlaneSolution::recovered_stress(std::span<const Point> points, std::span<std::array<double, 3>> values) const {
@@ -97,6 +110,7 @@ void PlaneSolution::recovered_stress(std::span<const Point> points, std::span<st
             sum[d] += shape[a] * recovered.at(cell, a)[d];
         values[k] = sum;
       });
+  implementation_->subtract_thermal(points, values);
 }
 
 std::map<int, Vector> PlaneSolution::reactions() const {

@@ -27,6 +27,9 @@ public:
     return materials[static_cast<std::size_t>(discretisation.regions[cell])];
   }
 
+  /// Takes the thermal stress off.
+  void subtract_thermal(std::span<const Point> points, std::span<std::array<double, 3>> stress) const;
+
   // Built by the first use.
   const PointLocation &location() const;
   const RecoveredStress &recovered() const;
@@ -36,6 +39,7 @@ public:
   Discretisation discretisation;
   std::vector<double> values; ///< unknown = 2 node + component
   Loads loads;
+  ScalarField thermal_strain; ///< empty: none
   EssentialData essential;
   std::size_t nonzeros = 0;
   Seconds seconds;

@@ -74,6 +74,16 @@ void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2>
                                  d.coupling() * gradient[0] + d.axial() * gradient[3],
                                  d.shear() * (gradient[1] + gradient[2])};
     }
+    if (!thermal_strain_)
+      return;
+    std::vector<Point2> places;
+    for (const std::size_t i : group_points)
+      places.push_back(points[i]);
+    std::vector<double> free(places.size());
+    thermal_strain_(places, free);
+    for (std::size_t p = 0; p < group_points.size(); ++p)
+      for (std::size_t k = 0; k < 2; ++k)
+        values[group_points[p]][k] -= d.thermal_modulus() * free[p];
   });
 }
 

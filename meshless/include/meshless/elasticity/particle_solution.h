@@ -41,6 +41,9 @@ public:
   /// Stress at points, Pa, with the derivatives that the method itself uses.
   void stress(std::span<const Point2> points, std::span<Stress2> values, std::span<const int> regions = {}) const;
 
+  /// The free strain that `stress` takes off; empty: none.
+  void set_thermal_strain(ScalarField thermal_strain) { thermal_strain_ = std::move(thermal_strain); }
+
   const cloud::Particles<2> &particles() const { return *particles_; }
   const Surroundings &surroundings() const { return *surroundings_; }
   std::span<const double> coefficients() const { return coefficients_; }
@@ -63,6 +66,7 @@ private:
   DerivativeRule rule_;
   std::shared_ptr<const Surroundings> surroundings_;
   std::vector<double> coefficients_;
+  ScalarField thermal_strain_;
   cloud::CandidateSearch<2> search_;
 };
 
