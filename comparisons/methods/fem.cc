@@ -15,6 +15,9 @@ namespace comparisons::methods {
 
 namespace reference = fem_reference::elasticity;
 
+/// Displacement of degree 2, pressure of degree 1.
+constexpr const char *taylor_hood = "Q2Q1";
+
 reference::PlaneProblem reference_problem(const problems::PlaneStatement &statement, problems::Mesh mesh) {
   reference::PlaneProblem problem;
   for (const auto &[name, material, boundary] : statement.regions)
@@ -22,6 +25,7 @@ reference::PlaneProblem reference_problem(const problems::PlaneStatement &statem
                                    material.plane_strain ? reference::PlaneModel::plane_strain
                                                          : reference::PlaneModel::plane_stress);
   problem.body_force = statement.body_force;
+  problem.thermal_strain = statement.thermal_strain;
   problem.mesh.vertices = std::move(mesh.vertices);
   for (const auto &cell : mesh.cells)
     problem.mesh.cells.push_back({cell.vertices, cell.n_vertices, cell.region});
@@ -43,15 +47,13 @@ reference::PlaneProblem reference_problem(const problems::PlaneStatement &statem
 
 namespace {
 
-/// Displacement of degree 2, pressure of degree 1.
-constexpr const char *taylor_hood = "Q2Q1";
 using scene::Type;
 
 class ElementField final : public Solution {
 public:
-  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds,
+  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds, bool thermal,
                std::vector<std::string> warnings)
-      : solution_(std::move(solution)) {
+      : solution_(std::move(solution)), thermal_(thermal) {
     const auto &s = solution_.seconds();
     record_.warnings = std::move(warnings);
     record_.n_points = static_cast<std::int64_t>(n_vertices);
@@ -106,10 +108,14 @@ public:
     return balance;
   }
 
-  std::optional<double> own_strain_energy() const override { return solution_.strain_energy(); }
+  /// Not with a free strain: the elements' sum is of the whole strain.
+  std::optional<double> own_strain_energy() const override {
+    return thermal_ ? std::nullopt : std::optional(solution_.strain_energy());
+  }
 
 private:
   reference::PlaneSolution solution_;
+  bool thermal_;
 };
 
 std::unique_ptr<Solution> solve(const SolveRequest &request) {
@@ -129,7 +135,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
       break;
     }
   return std::make_unique<ElementField>(reference::solve(problem, options), problem.mesh.vertices.size(),
-                                        points_seconds, std::move(warnings));
+                                        points_seconds, static_cast<bool>(problem.thermal_strain), std::move(warnings));
 }
 
 } // namespace
@@ -151,7 +157,7 @@ Method fem() {
        .default_value = "cholesky",
        .meaning = "sparse direct solver: CHOLMOD or UMFPACK"},
   };
-  method.description.effects = {"elasticity", "body_force"};
+  method.description.effects = {"elasticity", "body_force", "thermal_expansion"};
   method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     const double nu = context.material.real("nu");
     if (context.method.text("element") != taylor_hood && context.material.text("model") == "plane strain" &&

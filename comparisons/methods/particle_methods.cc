@@ -333,7 +333,7 @@ void check_corner(const scene::CheckContext &context, scene::Diagnostics &diagno
 }
 
 elasticity::PlaneProblem translate(const problems::PlaneStatement &statement) {
-  elasticity::PlaneProblem problem{{}, {}, statement.body_force};
+  elasticity::PlaneProblem problem{{}, {}, statement.body_force, statement.thermal_strain};
   static_assert(elasticity::interface_id == problems::interface_id);
   for (const auto &region : statement.regions) {
     std::vector<meshless::domain::BoundaryPiece> pieces;
@@ -660,6 +660,8 @@ Method make(std::string name, std::string meaning, std::vector<Declaration> para
   method.description.meaning = std::move(meaning);
   method.description.parameters = std::move(parameters);
   method.description.effects = {"elasticity", "body_force"};
+  if (form != Form::mixed)
+    method.description.effects.emplace_back("thermal_expansion");
   method.description.check = [form](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
     check_order(context, diagnostics);
     check_support(context, diagnostics);

@@ -65,6 +65,14 @@ void fill(const std::array<ScalarField, n> &fields, std::span<const Point2> poin
 
 } // namespace
 
+ScalarValues scalar_values(const std::string &text, double factor) {
+  return [field = ScalarField(text), factor](std::span<const Point2> points, std::span<double> values) {
+    field.evaluate(points, values);
+    for (double &value : values)
+      value *= factor;
+  };
+}
+
 VectorField vector_field(const std::array<std::string, 2> &texts) {
   const std::array fields{ScalarField(texts[0]), ScalarField(texts[1])};
   return [fields](std::span<const Point2> points, std::span<Vector2> values) { fill(fields, points, values); };

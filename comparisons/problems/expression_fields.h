@@ -23,6 +23,8 @@ private:
   std::shared_ptr<const Function> function_;
 };
 
+/// factor f
+ScalarValues scalar_values(const std::string &text, double factor);
 VectorField vector_field(const std::array<std::string, 2> &texts);
 /// Components 11, 22, 12.
 StressField stress_field(const std::array<std::string, 3> &texts);

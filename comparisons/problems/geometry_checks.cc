@@ -169,6 +169,15 @@ void check_finite(const geometry::PlaneGeometry &geometry, const PlaneStatement 
       diagnostics.error(table->location, table->key, error.what(), "an expression must be finite on its boundary");
     }
   }
+  if (statement.thermal_strain) {
+    std::vector<double> strain(mesh.vertices.size());
+    try {
+      statement.thermal_strain(mesh.vertices, strain);
+    } catch (const std::domain_error &error) {
+      diagnostics.error(tables.thermal_expansion->location, tables.thermal_expansion->key, error.what(),
+                        "an expression must be finite in the domain");
+    }
+  }
   if (!statement.body_force)
     return;
   std::vector<Vector2> values(mesh.vertices.size());

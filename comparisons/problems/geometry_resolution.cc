@@ -236,6 +236,9 @@ private:
     statement.characteristic_length = std::max(shape.upper[0] - shape.lower[0], shape.upper[1] - shape.lower[1]);
     if (tables_.body_force)
       statement.body_force = vector_field(scene::split_expressions(tables_.body_force->keys.text("force")));
+    if (tables_.thermal_expansion)
+      statement.thermal_strain = scalar_values(tables_.thermal_expansion->keys.text("temperature"),
+                                               tables_.thermal_expansion->keys.real("expansion"));
     std::set<std::string> without;
     for (const auto &edge : shape.mesh.boundary)
       if (!statement.conditions.contains(edge.id)) {

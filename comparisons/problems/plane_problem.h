@@ -21,6 +21,7 @@ using Stress2 = std::array<double, 3>;
 /// Batch callbacks: values at points, SI.
 using VectorField = std::function<void(std::span<const Point2>, std::span<Vector2>)>;
 using StressField = std::function<void(std::span<const Point2>, std::span<Stress2>)>;
+using ScalarValues = std::function<void(std::span<const Point2>, std::span<double>)>;
 using TractionField =
     std::function<void(std::span<const Point2>, std::span<const Vector2> normals, std::span<Vector2>)>;
 
@@ -79,6 +80,8 @@ struct PlaneStatement {
   std::map<int, BoundaryCondition> conditions;
   /// N/m^3; empty unless the scene calls for the effect body_force.
   VectorField body_force;
+  /// Expansion coefficient times temperature; empty unless the scene calls for the effect thermal_expansion.
+  ScalarValues thermal_strain = {};
   /// L of the penalty alpha = penalty E0 / L, m.
   double characteristic_length = 1;
   std::vector<Corner> corners;

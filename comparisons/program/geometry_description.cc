@@ -90,6 +90,7 @@ std::string describe_geometry_keys() {
                                             {"[[material]]", scene::region_material_declarations()},
                                             {"[[boundary]]", scene::boundary_declarations()},
                                             {"[effects.body_force]", scene::body_force_declarations()},
+                                            {"[effects.thermal_expansion]", scene::thermal_expansion_declarations()},
                                             {"[reference]", scene::reference_declarations()},
                                             {"[[quantity]]", scene::quantity_declarations()}})
     text += fmt::format("{}\n{}\n", title, scene::describe_declarations(declarations));

@@ -44,7 +44,8 @@ void SceneReader::read_effect(const Entry &entry) {
   if (found == vocabulary_.effects.end())
     return unknown_key(entry, "effects", "[effects]", names, homes_, diagnostics_);
   const Node &value = entry.value;
-  const bool has_own_table = has_geometry() && entry.key == "body_force"; // read_geometry_tables reads it
+  const bool has_own_table = has_geometry() && (entry.key == "body_force" ||
+                                                entry.key == "thermal_expansion"); // read_geometry_tables reads it
   if (value.is(Node::Kind::table) && has_own_table)
     return add_effect(*found, nullptr, entry.key_location);
   if (value.is(Node::Kind::table)) {

@@ -171,4 +171,15 @@ std::vector<Declaration> body_force_declarations() {
            .meaning = "force per volume in x and y"}};
 }
 
+std::vector<Declaration> thermal_expansion_declarations() {
+  return {{.name = "expansion",
+           .range = {.lower = -1, .upper = 1},
+           .required = true,
+           .meaning = "coefficient of linear expansion, 1/K, of all regions"},
+          {.name = "temperature",
+           .type = Type::expression,
+           .required = true,
+           .meaning = "temperature above that without stress, K"}};
+}
+
 } // namespace comparisons::scene

@@ -26,7 +26,10 @@ public:
     tables.quantities = read_list("quantity", quantity_declarations());
     if (auto reference = read_one("reference", reference_declarations()))
       tables.reference = std::move(*reference);
-    read_body_force(tables);
+    tables.body_force =
+        read_effect("body_force", body_force_declarations(), "its force", "force = [\"0 N/m^3\", \"-77 kN/m^3\"]");
+    tables.thermal_expansion = read_effect("thermal_expansion", thermal_expansion_declarations(), "its temperature",
+                                           "expansion = 1.2e-5 and temperature = \"100*x\"");
     require("material", "region, E, nu and model");
     require("boundary", "group and a displacement, a traction or a pressure");
     if (n_errors() == errors_before) {
@@ -85,19 +88,21 @@ private:
     return tables;
   }
 
-  void read_body_force(GeometryTables &tables) {
+  /// The table of an effect that needs one.
+  std::optional<PlacedTable> read_effect(const char *name, const std::vector<Declaration> &declarations,
+                                         const char *what, const char *example) {
     const Entry *effects = root_.find("effects");
-    const Entry *entry = effects != nullptr ? effects->value.find("body_force") : nullptr;
+    const Entry *entry = effects != nullptr ? effects->value.find(name) : nullptr;
     if (entry == nullptr || (entry->value.is(Node::Kind::boolean) && !entry->value.boolean))
-      return;
+      return {};
+    const std::string key = fmt::format("effects.{}", name);
     if (!entry->value.is(Node::Kind::table)) {
-      diagnostics_.error(entry->value.location, "effects.body_force",
-                         "with a geometry of one's own the effect needs its force",
-                         "write [effects.body_force] and force = [\"0 N/m^3\", \"-77 kN/m^3\"]");
-      return;
+      diagnostics_.error(entry->value.location, key,
+                         fmt::format("with a geometry of one's own the effect needs {}", what),
+                         fmt::format("write [{}] and {}", key, example));
+      return {};
     }
-    tables.body_force = read_table_at(&entry->value, "effects.body_force", "[effects.body_force]",
-                                      body_force_declarations(), entry->value.location);
+    return read_table_at(&entry->value, key, fmt::format("[{}]", key), declarations, entry->value.location);
   }
 
   /// A finding about a key of a table, at the key if the scene gives it.

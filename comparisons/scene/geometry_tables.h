@@ -28,15 +28,19 @@ struct GeometryTables {
   std::vector<PlacedTable> quantities;
   /// [effects.body_force]; absent if the scene does not call for it.
   std::optional<PlacedTable> body_force;
+  /// [effects.thermal_expansion]; absent if the scene does not call for it.
+  std::optional<PlacedTable> thermal_expansion;
 };
 
-/// Keys of [geometry], [[material]], [[boundary]], [reference], [[quantity]] and [effects.body_force].
+/// Keys of [geometry], [[material]], [[boundary]], [reference], [[quantity]], [effects.body_force] and
+/// [effects.thermal_expansion].
 std::vector<Declaration> geometry_declarations();
 std::vector<Declaration> region_material_declarations();
 std::vector<Declaration> boundary_declarations();
 std::vector<Declaration> reference_declarations();
 std::vector<Declaration> quantity_declarations();
 std::vector<Declaration> body_force_declarations();
+std::vector<Declaration> thermal_expansion_declarations();
 
 /// Reads the tables of a scene with [geometry]. Also checks what keys of one table say against each other: a traction
 /// beside a pressure or a displacement of the same component, a component that a quantity needs.

@@ -53,6 +53,8 @@ nlohmann::ordered_json to_json(const Scene &scene) {
     json["quantities"] = to_json(tables.quantities);
     if (tables.body_force)
       json["body_force"] = to_json(tables.body_force->keys);
+    if (tables.thermal_expansion)
+      json["thermal_expansion"] = to_json(tables.thermal_expansion->keys);
   }
   json["effects"] = scene.effects;
   for (const auto &[effect, parameters] : scene.effect_parameters)

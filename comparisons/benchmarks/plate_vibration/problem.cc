@@ -410,6 +410,8 @@ void check(const scene::CheckContext &context, scene::Diagnostics &diagnostics) 
 std::vector<scene::MethodDescription> descriptions() {
   std::vector<scene::MethodDescription> result;
   for (const auto &method : methods::method_table()) {
+    if (method.description.name == "mixed")
+      continue; // has no equations of motion
     auto description = method.description;
     description.effects = {"elasticity", "inertia", "damping"};
     description.parameters.push_back({.name = "integration",
@@ -419,6 +421,8 @@ std::vector<scene::MethodDescription> descriptions() {
                                       .meaning = "steps in time: mean acceleration, or explicit with lumped mass"});
     if (description.name == "fem") {
       std::erase_if(description.parameters, [](const auto &p) { return p.name == "solver"; });
+      std::ranges::find(description.parameters, "element", &scene::Declaration::name)->choices = {"Q1", "Q2", "Q3",
+                                                                                                  "Q4"};
       description.parameters.push_back({.name = "mass",
                                         .type = Type::choice,
                                         .choices = {"consistent", "lumped"},

@@ -160,6 +160,9 @@ private:
 };
 
 void check(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
+  if (std::find(context.effects.begin(), context.effects.end(), "thermal_expansion") != context.effects.end())
+    diagnostics.error({}, "effects.thermal_expansion", "this benchmark has no temperature",
+                      "remove the effect, or describe the problem by [geometry]");
   const auto &material = context.material;
   if (material.text("model") == "plane strain" && material.real("nu") >= 0.5)
     diagnostics.error(

@@ -78,6 +78,45 @@ void add_body_force(const VectorField &body_force, const ReferenceElement &eleme
   }
 }
 
+/// Integrals of the slopes of shape functions with the thermal stress, on the cells of one shape.
+void add_thermal_load(const PlaneProblem &problem, const ReferenceElement &element,
+                      const Discretisation &discretisation, Loads &loads) {
+  const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
+  const auto n_points = static_cast<std::size_t>(table.n_points);
+  const auto n = static_cast<std::size_t>(table.n_nodes);
+  std::vector<Point> points(n_points);
+  std::vector<double> free(n_points);
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
+    if (discretisation.n_vertices[c] != element.n_vertices())
+      continue;
+    const auto nodes = discretisation.nodes_of(c);
+    const double modulus = problem.materials[static_cast<std::size_t>(discretisation.regions[c])].thermal_modulus();
+    for (std::size_t q = 0; q < n_points; ++q) {
+      const auto mapped = map_point(table, static_cast<int>(q), nodes, discretisation.positions);
+      points[q] = {discretisation.origin[0] + mapped.position[0], discretisation.origin[1] + mapped.position[1]};
+    }
+    problem.thermal_strain(points, free);
+    for (std::size_t q = 0; q < n_points; ++q) {
+      if (!std::isfinite(free[q]))
+        throw InvalidInput(fmt::format("the thermal strain at ({}, {}) is {}", points[q][0], points[q][1], free[q]));
+      std::array<Vector, 2> dx{}; // dx[i][k] = d x_i / d xi_k
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t i = 0; i < 2; ++i) {
+          dx[i][0] += discretisation.positions[nodes[a]][i] * table.gradients_1[q * n + a];
+          dx[i][1] += discretisation.positions[nodes[a]][i] * table.gradients_2[q * n + a];
+        }
+      // The Jacobian in JxW cancels the one that divides the slopes.
+      const double stress = table.weights[q] * modulus * free[q];
+      for (std::size_t a = 0; a < n; ++a) {
+        const double g1 = table.gradients_1[q * n + a];
+        const double g2 = table.gradients_2[q * n + a];
+        loads.nodal[2 * std::size_t{nodes[a]}] += stress * (dx[1][1] * g1 - dx[1][0] * g2);
+        loads.nodal[2 * std::size_t{nodes[a]} + 1] += stress * (dx[0][0] * g2 - dx[0][1] * g1);
+      }
+    }
+  }
+}
+
 /// Quadrature points on the edges of one boundary id, with what is needed to integrate over them.
 struct EdgePoints {
   std::vector<unsigned> nodes; ///< degree + 1 an edge
@@ -154,6 +193,9 @@ Loads loads(const PlaneProblem &problem, const Discretisation &discretisation) {
   if (problem.body_force)
     for (const auto &element : discretisation.elements)
       add_body_force(problem.body_force, element, discretisation, result);
+  if (problem.thermal_strain)
+    for (const auto &element : discretisation.elements)
+      add_thermal_load(problem, element, discretisation, result);
   for (const auto &[id, condition] : problem.boundary)
     if (condition.traction &&
         (condition.kind[0] == ConditionKind::traction || condition.kind[1] == ConditionKind::traction))

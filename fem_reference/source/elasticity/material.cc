@@ -26,4 +26,8 @@ double Material::lambda() const {
 }
 
 double Material::mu() const { return youngs_modulus_ / (2 * (1 + poisson_ratio_)); }
+
+double Material::thermal_modulus() const {
+  return youngs_modulus_ / (1 - (model_ == PlaneModel::plane_stress ? 1 : 2) * poisson_ratio_);
+}
 } // namespace fem_reference::elasticity

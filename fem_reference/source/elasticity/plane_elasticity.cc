@@ -126,6 +126,7 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
   solution->essential = essential_data(problem, discretisation);
   assemble_stiffness(discretisation, problem.materials, matrix);
   solution->loads = loads(problem, discretisation);
+  solution->thermal_strain = problem.thermal_strain;
   auto right_hand_side = solution->loads.nodal;
   eliminate(solution->essential, matrix, right_hand_side);
   seconds.assembly = stopwatch.lap();

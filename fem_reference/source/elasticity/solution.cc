@@ -35,6 +35,18 @@ void PlaneSolution::Implementation::for_each_point(std::span<const Point> points
   points_outside = outside;
 }
 
+void PlaneSolution::Implementation::subtract_thermal(std::span<const Point> points,
+                                                     std::span<std::array<double, 3>> stress) const {
+  if (!thermal_strain)
+    return;
+  std::vector<double> free(points.size());
+  thermal_strain(points, free);
+  for_each_point(points, [&](std::size_t k, std::size_t cell, const auto &, const auto &, const auto &) {
+    for (std::size_t d = 0; d < 2; ++d)
+      stress[k][d] -= material_of(cell).thermal_modulus() * free[k];
+  });
+}
+
 namespace {
 using Shape = ReferenceElement::Values;
 
@@ -85,6 +97,7 @@ void PlaneSolution::stress(std::span<const Point> points, std::span<std::array<d
             implementation_->discretisation, implementation_->material_of(cell), implementation_->values, cell, slope_1,
             slope_2, pressure_in_cell(implementation_->discretisation, implementation_->cell_pressure, cell, shape));
       });
+  implementation_->subtract_thermal(points, values);
 }
 
 bool PlaneSolution::has_pressure() const { return !implementation_->cell_pressure.empty(); }
@@ -111,6 +124,7 @@ void PlaneSolution::recovered_stress(std::span<const Point> points, std::span<st
             sum[d] += shape[a] * recovered.at(cell, a)[d];
         values[k] = sum;
       });
+  implementation_->subtract_thermal(points, values);
 }
 
 std::map<int, Vector> PlaneSolution::reactions() const {

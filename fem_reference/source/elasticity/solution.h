@@ -27,6 +27,9 @@ public:
     return materials[static_cast<std::size_t>(discretisation.regions[cell])];
   }
 
+  /// Takes the thermal stress off.
+  void subtract_thermal(std::span<const Point> points, std::span<std::array<double, 3>> stress) const;
+
   // Built by the first use.
   const PointLocation &location() const;
   const RecoveredStress &recovered() const;
@@ -38,6 +41,7 @@ public:
   std::vector<double> cell_pressure; ///< of a mixed method, see MixedResult
   std::size_t n_dofs = 0;
   Loads loads;
+  ScalarField thermal_strain; ///< empty: none
   EssentialData essential;
   std::size_t nonzeros = 0;
   Seconds seconds;

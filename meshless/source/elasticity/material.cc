@@ -28,6 +28,10 @@ Material::Material(double youngs_modulus, double poisson_ratio, PlaneModel model
   }
 }
 
+double Material::thermal_modulus() const {
+  return youngs_modulus_ / (model_ == PlaneModel::plane_stress ? 1 - poisson_ratio_ : 1 - 2 * poisson_ratio_);
+}
+
 double Material::plane_modulus() const {
   return model_ == PlaneModel::plane_stress ? youngs_modulus_
                                             : youngs_modulus_ / ((1 - poisson_ratio_) * (1 + poisson_ratio_));

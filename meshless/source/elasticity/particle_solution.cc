@@ -89,6 +89,8 @@ void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2>
                                        d.shear() * (gradient[1] + gradient[2])};
           }
         });
+  if (thermal_strain_)
+    subtract_thermal(points, values, regions);
   if (!has_pressure())
     return;
   std::vector<double> p(points.size());
@@ -96,6 +98,17 @@ void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2>
   for (std::size_t i = 0; i < p.size(); ++i) {
     values[i][0] += p[i];
     values[i][1] += p[i];
+  }
+}
+
+void ParticleSolution::subtract_thermal(std::span<const Point2> points, std::span<Stress2> values,
+                                        std::span<const int> regions) const {
+  std::vector<double> free(points.size());
+  thermal_strain_(points, free);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto region = regions.empty() ? surroundings_->region_of(points[i]) : static_cast<std::size_t>(regions[i]);
+    for (std::size_t k = 0; k < 2; ++k)
+      values[i][k] -= surroundings_->material(region).thermal_modulus() * free[i];
   }
 }
 

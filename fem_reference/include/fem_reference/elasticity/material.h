@@ -21,6 +21,8 @@ public:
 
   /// Effective first Lame constant of the plane law, Pa.
   double lambda() const;
+  /// In-plane stress that holds back a free strain of 1 in all directions, Pa: E / (1 - nu) or E / (1 - 2 nu).
+  double thermal_modulus() const;
   /// Shear modulus, Pa.
   double mu() const;
 

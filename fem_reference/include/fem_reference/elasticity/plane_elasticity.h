@@ -20,6 +20,9 @@ using Vector = std::array<double, 2>;
 /// Batch callback: fills values[k] at points[k], for example a displacement in m or a force in N/m^3.
 using VectorField = std::function<void(std::span<const Point> points, std::span<Vector> values)>;
 
+/// Batch callback for a scalar.
+using ScalarField = std::function<void(std::span<const Point> points, std::span<double> values)>;
+
 /// As VectorField, with the unit outward normal at each point; values in Pa.
 using TractionField =
     std::function<void(std::span<const Point> points, std::span<const Vector> normals, std::span<Vector> values)>;
@@ -51,6 +54,9 @@ struct PlaneProblem {
   std::map<int, BoundaryCondition> boundary;
   /// N/m^3; may be empty: then nothing is computed for it.
   VectorField body_force = {};
+  /// Free strain by temperature, the same in all directions; may be empty. The stress is then the elastic one less
+  /// E / (1 - nu) times it in plane stress, E / (1 - 2 nu) in plane strain.
+  ScalarField thermal_strain = {};
 };
 
 enum class LinearSolver {

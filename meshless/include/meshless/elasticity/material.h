@@ -24,6 +24,9 @@ public:
   double coupling() const { return coupling_; }
   /// D33 of (3.4), the shear modulus, Pa.
   double shear() const { return shear_; }
+  /// Stress in the plane that holds back a free strain of 1: E / (1 - nu) in plane stress, E / (1 - 2 nu) in plane
+  /// strain, Pa.
+  double thermal_modulus() const;
 
 private:
   double youngs_modulus_;

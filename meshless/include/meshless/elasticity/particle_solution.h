@@ -55,6 +55,9 @@ public:
   /// Stress at points, Pa, with the derivatives that the method itself uses.
   void stress(std::span<const Point2> points, std::span<Stress2> values, std::span<const int> regions = {}) const;
 
+  /// The free strain that `stress` takes off; empty: none.
+  void set_thermal_strain(ScalarField thermal_strain) { thermal_strain_ = std::move(thermal_strain); }
+
   const cloud::Particles<2> &particles() const { return *particles_; }
   const Surroundings &surroundings() const { return *surroundings_; }
   std::span<const double> coefficients() const { return coefficients_; }
@@ -73,11 +76,14 @@ private:
              std::span<const Point2> points, std::span<const int> regions, const basis::Wanted &wanted,
              const Visitor &visitor) const;
 
+  void subtract_thermal(std::span<const Point2> points, std::span<Stress2> values, std::span<const int> regions) const;
+
   std::shared_ptr<const cloud::Particles<2>> particles_;
   std::shared_ptr<const basis::ShapeFunctions<2>> basis_;
   DerivativeRule rule_;
   std::shared_ptr<const Surroundings> surroundings_;
   std::vector<double> coefficients_;
+  ScalarField thermal_strain_;
   cloud::CandidateSearch<2> search_;
   PressureField pressure_;
   std::optional<cloud::CandidateSearch<2>> pressure_search_;

@@ -18,6 +18,8 @@ using Stress2 = std::array<double, 3>;
 
 /// Batch callback: values of a vector field at points.
 using VectorField = std::function<void(std::span<const Point2>, std::span<Vector2>)>;
+/// Batch callback: values of a scalar field at points.
+using ScalarField = std::function<void(std::span<const Point2>, std::span<double>)>;
 /// Batch callback: traction in Pa at boundary points with these outward unit normals.
 using TractionField =
     std::function<void(std::span<const Point2>, std::span<const Vector2> normals, std::span<Vector2>)>;
@@ -47,6 +49,10 @@ struct PlaneProblem {
   std::map<int, BoundaryCondition> conditions; ///< by boundary id
   /// Force per volume, N/m^3; empty if the scene calls for none: nothing is then computed for it.
   VectorField body_force;
+  /// Free strain by temperature, expansion coefficient times rise of temperature, the same in all directions; empty if
+  /// the scene calls for none. The stress is then sigma = D eps - E / (1 - nu) eps_0 I (plane stress; 1 - 2 nu in plane
+  /// strain): eps_0 acts as a load.
+  ScalarField thermal_strain = {};
 
   /// @throws std::invalid_argument if there is no region, a piece has no condition, a condition lacks its displacement
   ///   field, no component of any piece is fixed, or a piece of an interface has no counterpart

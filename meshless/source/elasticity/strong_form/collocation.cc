@@ -48,6 +48,13 @@ double prescribed(const PlaneProblem &problem, std::size_t region, const RowCond
     const Vector2 normal = normal_at(problem, region, row.piece, point);
     condition.traction({&point, 1}, {&normal, 1}, {&value, 1});
   }
+  if (row.kind == ConditionKind::traction && problem.thermal_strain) {
+    double free = 0;
+    problem.thermal_strain({&point, 1}, {&free, 1});
+    const Vector2 normal = normal_at(problem, region, row.piece, point);
+    const double stress = problem.regions[region].material.thermal_modulus() * free;
+    return value[static_cast<std::size_t>(row.component)] + stress * normal[static_cast<std::size_t>(row.component)];
+  }
   return value[static_cast<std::size_t>(row.component)];
 }
 
@@ -129,12 +136,31 @@ using ParticleRows = std::vector<Entry>;
 class Collocation {
 public:
   Collocation(const PlaneProblem &problem, const cloud::Particles<2> &particles, std::vector<Rows> rows)
-      : problem_(problem), particles_(particles), rows_(std::move(rows)), entries_(particles.size()) {}
+      : problem_(problem), particles_(particles), rows_(std::move(rows)), entries_(particles.size()) {
+    if (!problem.thermal_strain)
+      return;
+    thermal_.resize(particles.size());
+    problem.thermal_strain(particles.positions(), thermal_);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].kind == RowKind::balance) {
+        const double difference = problem.regions[region(i)].material.thermal_modulus() -
+                                  problem.regions[rows_[i].other_region].material.thermal_modulus();
+        const Vector2 n = normal(i, rows_[i].piece);
+        for (std::size_t k = 0; k < 2; ++k)
+          rows_[i].right_hand_side[k] += difference * thermal_[i] * n[k];
+      }
+  }
 
   /// Adds the shape functions of the particle's own region, at point p of a batch.
   void add_own(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
     const auto &material = problem_.regions[region(particle)].material;
-    const auto &rows = rows_[particle];
+    auto &rows = rows_[particle];
+    if (!thermal_.empty() && rows.kind == RowKind::interior) // sigma_ij,j has the gradient of the thermal stress
+      for (std::size_t j = 0; j < group.candidates.size(); ++j)
+        for (int i = 0; i < 2; ++i)
+          rows.right_hand_side[static_cast<std::size_t>(i)] += material.thermal_modulus() *
+                                                               group.values.gradient(i, j)[p] *
+                                                               thermal_[static_cast<std::size_t>(group.candidates[j])];
     for (std::size_t j = 0; j < group.candidates.size(); ++j) {
       if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
           group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
@@ -263,6 +289,7 @@ private:
   const cloud::Particles<2> &particles_;
   std::vector<Rows> rows_;
   std::vector<ParticleRows> entries_;
+  std::vector<double> thermal_;       ///< free strain at the particles; empty: none
   std::span<const double> densities_; ///< empty: no mass is asked for
   std::vector<std::vector<std::pair<std::int64_t, double>>> mass_;
 };
@@ -335,6 +362,7 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
   ParticleSolution solution(std::move(particles), std::move(basis), DerivativeRule::direct, surroundings,
                             std::move(lu.solution));
+  solution.set_thermal_strain(problem.thermal_strain);
   solution.seconds = seconds;
   solution.nonzeros = matrix.nonzeros();
   solution.backward_error = backward;

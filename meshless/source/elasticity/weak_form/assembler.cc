@@ -138,7 +138,8 @@ void Assembler::evaluate_basis(std::span<const double> x, std::span<const double
 
 /// Equilibrium at the particle: sigma_ij,j = -b_i.
 void Assembler::collocate() {
-  evaluate_basis({&centre_[0], 1}, {&centre_[1], 1}, own_, {.hessian = true});
+  const bool thermal = static_cast<bool>(problem_.thermal_strain);
+  evaluate_basis({&centre_[0], 1}, {&centre_[1], 1}, own_, {.gradient = thermal, .hessian = true});
   for (std::size_t j = 0; j < own_.candidates.size(); ++j)
     for (std::size_t i = 0; i < 2; ++i) {
       const auto row = equilibrium(surroundings_.material(region_), values_, j, 0, static_cast<int>(i));
@@ -149,6 +150,16 @@ void Assembler::collocate() {
     Vector2 force{};
     problem_.body_force({&centre_, 1}, {&force, 1});
     right_ = {-force[0], -force[1]};
+  }
+  if (thermal) {
+    points_.clear();
+    for (const auto j : own_.candidates)
+      points_.push_back(particles_.position(static_cast<std::size_t>(j)));
+    thermal_.resize(points_.size());
+    problem_.thermal_strain(points_, thermal_);
+    for (std::size_t j = 0; j < thermal_.size(); ++j)
+      for (int i = 0; i < 2; ++i)
+        right_[i] += surroundings_.material(region_).thermal_modulus() * values_.gradient(i, j)[0] * thermal_[j];
   }
 }
 
@@ -186,6 +197,8 @@ void Assembler::integrate_domain() {
   }
   if (problem_.body_force)
     integrate_body_force();
+  if (problem_.thermal_strain)
+    integrate_thermal_strain();
   seconds.assembly += watch.lap();
 }
 
@@ -227,6 +240,33 @@ void Assembler::integrate_body_force() {
   for (std::size_t q = 0; q < n; ++q)
     for (int k = 0; k < 2; ++k)
       right_[k] += quadrature_.JxW[q] * test_[q] * fields_[q][k];
+}
+
+void Assembler::evaluate_thermal_strain(std::span<const double> x, std::span<const double> y) {
+  points_.resize(x.size());
+  thermal_.resize(x.size());
+  for (std::size_t q = 0; q < x.size(); ++q)
+    points_[q] = {x[q], y[q]};
+  problem_.thermal_strain(points_, thermal_);
+}
+
+/// int W,i times the thermal stress, with the gradient of W already there.
+void Assembler::integrate_thermal_strain() {
+  evaluate_thermal_strain(quadrature_.point[0], quadrature_.point[1]);
+  const double modulus = surroundings_.material(region_).thermal_modulus();
+  for (std::size_t q = 0; q < thermal_.size(); ++q)
+    for (int i = 0; i < 2; ++i)
+      right_[i] += quadrature_.JxW[q] * test_gradient_[i][q] * modulus * thermal_[q];
+}
+
+/// The thermal part of - int sigma_ij n_j W for the components i, on the right-hand side.
+void Assembler::add_thermal_flux(const Part &part, const Material &material, const std::array<bool, 2> &components) {
+  evaluate_thermal_strain(coordinates(part, 0), coordinates(part, 1));
+  for (std::size_t q = 0; q < thermal_.size(); ++q)
+    for (int i = 0; i < 2; ++i)
+      if (components[i])
+        right_[i] -= quadrature_.boundary_JxW[part.begin + q] * test_[q] *
+                     quadrature_.boundary_normal[i][part.begin + q] * material.thermal_modulus() * thermal_[q];
 }
 
 std::span<const double> Assembler::coordinates(const Part &part, int k) const {
@@ -331,6 +371,8 @@ void Assembler::add_penalty(const Part &part, double factor, const std::array<bo
 /// - int sigma_ij n_j W for the components i.
 void Assembler::add_flux(const Part &part, const Material &d, const std::array<bool, 2> &components, Block &block) {
   const std::size_t size = part.end - part.begin;
+  if (problem_.thermal_strain)
+    add_thermal_flux(part, d, components);
   for (std::size_t j = 0; j < block.candidates.size(); ++j) {
     // s_kl = int W phi_j,k n_l
     double s11 = 0, s12 = 0, s21 = 0, s22 = 0;

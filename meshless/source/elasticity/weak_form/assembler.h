@@ -59,6 +59,8 @@ private:
   void add_gradient_products(std::size_t n);
   void integrate_body_force();
   void integrate_mass();
+  void evaluate_thermal_strain(std::span<const double> x, std::span<const double> y);
+  void integrate_thermal_strain();
 
   using Part = domain::SubdomainQuadrature::Part;
   std::span<const double> coordinates(const Part &part, int k) const;
@@ -68,6 +70,8 @@ private:
   void add_to_right_hand_side(const Part &part, const BoundaryCondition &condition, ConditionKind kind, double factor);
   void add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block);
   void add_flux(const Part &part, const Material &material, const std::array<bool, 2> &components, Block &block);
+
+  void add_thermal_flux(const Part &part, const Material &material, const std::array<bool, 2> &components);
 
   void append_rows(linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
 
@@ -102,6 +106,7 @@ private:
   std::vector<Point2> points_;
   std::vector<Vector2> fields_;
   std::vector<Vector2> normals_;
+  std::vector<double> thermal_;
   std::vector<std::pair<cloud::Index, std::array<double, 4>>> row_;
   std::vector<std::int64_t> columns_;
   std::vector<double> entries_;

@@ -64,6 +64,7 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
   ParticleSolution solution(std::move(particles), std::move(basis), parameters.derivatives, surroundings,
                             std::move(lu.solution));
+  solution.set_thermal_strain(problem.thermal_strain);
   solution.seconds = assembler.seconds;
   solution.nonzeros = matrix.nonzeros();
   solution.backward_error = backward;
