@@ -502,10 +502,14 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
                         : elasticity::weak_form::Subdomains::whole;
   weak.interior_rows = form == Form::hybrid ? elasticity::weak_form::InteriorRows::collocated
                                             : elasticity::weak_form::InteriorRows::weak;
-  weak.integration = parameters.text("quadrature") == "consistent" ? elasticity::weak_form::IntegrationRule::consistent
-                                                                   : elasticity::weak_form::IntegrationRule::paper;
-  weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
-  weak.penalty = parameters.real("penalty");
+  // The mixed method, whose rows are sampled as those of weak1, has none of these keys: it is always consistent.
+  const bool consistent = !parameters.has("quadrature") || parameters.text("quadrature") == "consistent";
+  weak.integration =
+      consistent ? elasticity::weak_form::IntegrationRule::consistent : elasticity::weak_form::IntegrationRule::paper;
+  if (parameters.has("quadrature_points"))
+    weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
+  if (parameters.has("penalty"))
+    weak.penalty = parameters.real("penalty");
   weak.characteristic_length = request.statement.characteristic_length;
   return weak;
 }

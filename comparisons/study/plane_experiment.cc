@@ -176,15 +176,19 @@ private:
 
   /// Matrix entries from the mean number of neighbours.
   static void estimate_particles(const scene::Parameters &p, Estimate &e) {
-    e.n_dofs = 2 * e.n_points;
+    const bool mixed = p.has("stabilisation");
+    e.n_dofs = (mixed ? 3 : 2) * e.n_points;
     const double order = static_cast<double>(p.integer("order"));
     const double support = (p.has("support") ? p.real("support") : order + 2) *
                            (p.has("smoothing_length") ? p.real("smoothing_length") : 1);
-    const bool weak = p.has("quadrature_points");
+    const bool weak = mixed || p.has("quadrature_points");
     const double reach = weak ? support + (p.has("test_radius") ? p.real("test_radius") : 1) : support;
     const double neighbours = std::min(e.n_points, std::numbers::pi * reach * reach);
     estimate_system(e.n_dofs * 2 * neighbours, e);
-    const double quadrature = weak ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2) : 10;
+    const bool consistent = mixed || (weak && p.text("quadrature") == "consistent");
+    const double quadrature = consistent ? 24
+                              : weak     ? 4 * std::pow(static_cast<double>(p.integer("quadrature_points")), 2)
+                                         : 10;
     e.seconds += e.n_points * quadrature * neighbours * 8e-9;
   }
 

@@ -13,9 +13,9 @@ bool has(const std::string &text, const std::string &part) { return text.find(pa
 
 TEST(Verify, prints_the_matrix_and_writes_it_as_data) {
   const Folder folder;
-  const auto ended =
-      run_program({"verify", "--quick", "--cases", "cook nu=0.499999", "--methods", "mixed,fem", "--json", "matrix.json"},
-                  folder.path());
+  const auto ended = run_program(
+      {"verify", "--quick", "--cases", "cook nu=0.499999", "--methods", "mixed,fem", "--json", "matrix.json"},
+      folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   for (const auto *part : {"incompressibility", "u2(48, 52) = 18.508", "mixed", "fem Q2Q1", "holds",
                            "warned: nu = 0.499999", "4 cells", "0 fail"})
@@ -58,6 +58,16 @@ TEST(Verify, a_hang_is_a_failure_with_exit_code_4) {
                                  folder.path());
   EXPECT_EQ(ended.exit_code, 4);
   EXPECT_TRUE(has(ended.out, "ended after max_seconds")) << ended.out;
+}
+
+TEST(Explain, knows_mixed_and_consistent_quadrature) {
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\ntitle = \"mixed\"\nbenchmark = \"cantilever\"\n[[method]]\nname = \"mixed\"\n"
+                             "[[method]]\nname = \"weak1\"\nquadrature = \"consistent\"\n[[method]]\nname = \"fem\"\n"
+                             "element = \"Q2Q1\"\n[study]\nlevels = [\"16x4\"]\n");
+  const auto ended = run_program({"explain", "scene.toml"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(has(ended.out, "192")) << ended.out; // three unknowns of 64 particles
 }
 
 } // namespace
