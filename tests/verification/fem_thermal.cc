@@ -47,8 +47,9 @@ TEST(FemThermal, FreeExpansionIsWithoutStressAndHeldOneHasTheoryStress) {
         found.recovered_stress(points, recovered);
         for (std::size_t k = 0; k < 3; ++k)
           for (std::size_t d = 0; d < 3; ++d) {
-            if (d < 2)
+            if (d < 2) {
               EXPECT_NEAR(u[k][d], e * points[k][d], 1e-12 * rise);
+            }
             EXPECT_NEAR(s[k][d], 0, 1e-10 * rise * held);
             EXPECT_NEAR(recovered[k][d], 0, 1e-10 * rise * held);
           }
