@@ -1,4 +1,5 @@
 #include "comparisons/geometry/mesh_operations.h"
+#include "comparisons/problems/boundary_foot.h"
 #include "comparisons/problems/cloud_file.h"
 #include "comparisons/problems/exact_solutions.h"
 #include "comparisons/problems/expression_fields.h"
@@ -318,10 +319,14 @@ private:
       result_.exact = reentrant_corner(keys.real("stress"), material);
   }
 
-  /// The region that holds a point, or none.
+  bool holds(std::size_t region, const Point2 &point) const {
+    return boundaries_[region].contains(point) || !boundaries_[region].pieces_at(point).empty();
+  }
+
+  /// The first region that holds a point or has it on its boundary, or none.
   std::optional<int> region_of(const Point2 &point) const {
     for (std::size_t r = 0; r < boundaries_.size(); ++r)
-      if (boundaries_[r].contains(point))
+      if (holds(r, point))
         return static_cast<int>(r);
     return {};
   }
@@ -387,24 +392,49 @@ private:
     }
   }
 
+  /// A file's digits put particles of round boundaries a little beside them: those closer to a piece than a hundredth
+  /// of their distance to neighbours are moved onto it.
+  void move_onto_boundary(std::span<Point2> points, std::span<const double> spacing) const {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double least = 0.01 * spacing[i];
+      Point2 best = points[i];
+      for (const auto &region : result_.statement.regions)
+        for (const auto &piece : region.boundary) {
+          const Point2 foot = nearest_on(piece, points[i]);
+          const double distance = std::hypot(foot[0] - points[i][0], foot[1] - points[i][1]);
+          if (distance < least) {
+            least = distance;
+            best = foot;
+          }
+        }
+      points[i] = best;
+    }
+  }
+
   /// Particles without h take the mean distance to their four nearest.
   void use_cloud(CloudFile file, const std::string &path) {
+    if (file.spacing.empty() && file.positions.size() < 5) {
+      complain(keys_, "cloud_file", "geometry.cloud_file",
+               fmt::format("{}: {} particles without h; it cannot be found from so few", path, file.positions.size()));
+      return;
+    }
+    if (file.spacing.empty())
+      file.spacing = meshless::cloud::smoothing_lengths_by_mean<2>(file.positions, 4, 1);
+    move_onto_boundary(file.positions, file.spacing);
     const auto found = regions_of(file.positions, path, keys_, "cloud_file", "geometry.cloud_file",
                                   [&](std::size_t i) { return fmt::format(", particle {}", i); });
     if (found.empty())
       return;
     const auto n_regions = static_cast<int>(boundaries_.size());
     for (std::size_t i = 0; i < file.regions.size(); ++i)
-      if (file.regions[i] >= n_regions ||
-          !boundaries_[static_cast<std::size_t>(file.regions[i])].contains(file.positions[i])) {
+      if (file.regions[i] >= n_regions || !holds(static_cast<std::size_t>(file.regions[i]), file.positions[i])) {
         complain(keys_, "cloud_file", "geometry.cloud_file",
                  fmt::format("{}, particle {}: ({:.6g}, {:.6g}) is not in region {}; regions are counted from 0 as "
                              "[[material]]",
                              path, i, file.positions[i][0], file.positions[i][1], file.regions[i]));
         return;
       }
-    result_.cloud.spacing =
-        file.spacing.empty() ? meshless::cloud::smoothing_lengths_by_mean<2>(file.positions, 4, 1) : file.spacing;
+    result_.cloud.spacing = std::move(file.spacing);
     result_.cloud.positions = std::move(file.positions);
     if (n_regions > 1)
       result_.cloud.regions = file.regions.empty() ? found : std::move(file.regions);

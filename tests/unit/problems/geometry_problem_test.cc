@@ -83,15 +83,16 @@ std::string findings(const Folder &folder, const std::string &text) {
 TEST(GeometryProblem, particles_and_reference_come_from_files) {
   const Folder folder;
   folder.write("square.msh", square_2());
-  folder.write("cloud.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n.5,.5\n");
+  folder.write("cloud.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n.5,.5\n.5,1.001\n");
   folder.write("there.csv", "x,y,u1,u2\n.5,.5,1,2\n.25,.5,3,4\n");
   auto scene = square_scene + "[reference]\nfile = \"there.csv\"\n" + method_and_levels;
   const std::string own = "file = \"square.msh\"\ncloud = \"file\"\ncloud_file = \"cloud.csv\"\n";
   scene.replace(scene.find("file = \"square.msh\"\n"), 20, own);
   const auto made = make(folder, scene);
   const auto cloud = made.problem->cloud(made.level("mesh"));
-  ASSERT_EQ(cloud.positions.size(), 5u);
-  EXPECT_NEAR(cloud.spacing[4], std::sqrt(.5), 1e-15);
+  ASSERT_EQ(cloud.positions.size(), 6u);
+  EXPECT_NEAR(cloud.spacing[0], (2 + std::sqrt(.5) + std::hypot(.5, 1.001)) / 4, 1e-15);
+  EXPECT_NEAR(cloud.positions[5][1], 1, 1e-15); // moved onto the edge
   EXPECT_FALSE(cloud.regular);
   const auto &exact = made.problem->exact();
   ASSERT_NE(exact.only_at, nullptr);
@@ -104,7 +105,7 @@ TEST(GeometryProblem, particles_and_reference_come_from_files) {
 TEST(GeometryProblem, files_must_fit_the_geometry) {
   const Folder folder;
   folder.write("square.msh", square_2());
-  folder.write("outside.csv", "x,y\n0,0\n2,0\n");
+  folder.write("outside.csv", "x,y,h\n0,0,1\n2,0,1\n");
   folder.write("there.csv", "x,y,u1,u2\n.5,.5,1,2\n.5,-3,3,4\n");
   const auto scene = [&](const std::string &geometry, const std::string &reference) {
     auto text = square_scene + reference + method_and_levels;
