@@ -94,6 +94,22 @@ double applied_magnitude(const problems::PlaneStatement &statement, const proble
   return total;
 }
 
+/// Integral of the magnitude of sigma n over the whole boundary.
+double carried_magnitude(const methods::Solution &solution, const problems::PlaneStatement &statement) {
+  double total = 0;
+  for (const auto &[id, points] : problems::boundary_quadrature(statement)) {
+    if (!statement.conditions.contains(id))
+      continue;
+    std::vector<double> s(3 * points.points.size());
+    solution.evaluate("stress", points.points, s);
+    for (std::size_t q = 0; q < points.points.size(); ++q) {
+      const auto [n1, n2] = points.normals[q];
+      total += points.weights[q] * std::hypot(s[3 * q] * n1 + s[3 * q + 2] * n2, s[3 * q + 2] * n1 + s[3 * q + 1] * n2);
+    }
+  }
+  return total;
+}
+
 } // namespace
 
 Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
@@ -113,7 +129,7 @@ Equilibrium equilibrium(const methods::Solution &solution, const problems::Plane
     all += magnitude(force);
   }
   const double loads = applied_magnitude(statement, quadrature);
-  const double scale = loads > 1e-12 * all ? loads : all;
+  const double scale = loads > 1e-12 * all ? loads : carried_magnitude(solution, statement);
   result.imbalance = scale > 0 ? magnitude(sum) / scale : 0;
   return result;
 }

@@ -15,8 +15,8 @@ struct Equilibrium {
   /// traction in the others.
   std::map<int, Force> boundary;
   Force body{};
-  /// |sum of all forces| over the integral of the magnitude of what is applied (over the sum of the magnitudes of all
-  /// forces if nothing is).
+  /// |sum of all forces| over the integral of the magnitude of what is applied (of sigma n over the boundary if nothing
+  /// is).
   double imbalance = 0;
 };
 

@@ -125,6 +125,16 @@ TEST(ForceBalance, loads_that_balance_among_themselves_count) {
   EXPECT_NEAR(result.imbalance, std::hypot(.5, 1) / (8e6 * (std::sqrt(2) - 1)), 1e-9);
 }
 
+/// Held all around, nothing is applied: the scale is what the boundary carries, not what is left over.
+TEST(ForceBalance, a_body_held_all_around_has_a_scale) {
+  auto statement = quarter_ring();
+  for (auto &[id, condition] : statement.conditions)
+    condition = statement.conditions.at(0);
+  for (auto &piece : statement.regions[0].boundary)
+    piece.id = 0;
+  EXPECT_LT(metrics::equilibrium(LinearStress(1), statement, {}).imbalance, 1e-13);
+}
+
 TEST(ForceBalance, a_body_force_counts) {
   auto statement = quarter_ring();
   statement.body_force = [](std::span<const Point2>, std::span<Vector2> b) {
