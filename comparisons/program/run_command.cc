@@ -243,8 +243,10 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
   for (const auto &name : benchmarks.empty() ? all : benchmarks) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const auto near = scene::nearest_name(name, known);
-      fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "),
-                 near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near));
+      const std::string hint = name.ends_with(".toml") ? fmt::format(" (a scene is run by: petrov run {})", name)
+                               : near.empty()          ? std::string()
+                                                       : fmt::format(" (did you mean '{}'?)", near);
+      fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "), hint);
       return usage_error;
     }
     const auto scenes = name == "examples" ? example_scenes() : shipped_scenes(name);
