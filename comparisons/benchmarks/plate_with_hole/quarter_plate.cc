@@ -29,8 +29,10 @@ meshless::domain::Boundary domain_of(const QuarterPlate &plate) {
 class BlockMap {
 public:
   BlockMap(const QuarterPlate &plate, int block) : plate_(plate), block_(block) {
-    // Elements at the outer edge are longer by the ratio of the two edges' lengths.
-    growth_ = std::log((plate.half_length + plate.half_width) / (0.5 * std::numbers::pi * plate.radius));
+    // With the ratio of the two edges' lengths as the ratio of the elements' there, their shape would be the same
+    // everywhere. Shorter ones at the hole are better: of the powers 1, 1.3, 1.6, 1.8 and 2 of that ratio 1.8 has the
+    // least errors of Q1 in displacement and on the hole that cost Q2 to Q4 nothing.
+    growth_ = 1.8 * std::log((plate.half_length + plate.half_width) / (0.5 * std::numbers::pi * plate.radius));
   }
 
   Point2 point(double along, double outwards) const {
