@@ -12,6 +12,7 @@ namespace {
 using Force = Equilibrium::Force;
 using problems::Point2;
 using problems::Vector2;
+using BoundaryPoints = std::map<int, problems::BoundaryQuadrature>;
 
 /// Integral of the prescribed traction over the points of one boundary id.
 Force applied(const problems::BoundaryCondition &condition, const problems::BoundaryQuadrature &points) {
@@ -30,18 +31,17 @@ Force applied(const problems::BoundaryCondition &condition, const problems::Boun
 Force carried(const methods::Solution &solution, const problems::BoundaryQuadrature &points) {
   std::vector<double> stress(3 * points.points.size());
   solution.evaluate("stress", points.points, stress);
-  Force force{};
+  std::array<long double, 2> force{}; // the rounding of hundreds of terms is not to show in the balance
   for (std::size_t q = 0; q < points.points.size(); ++q) {
     const auto [n1, n2] = points.normals[q];
     force[0] += points.weights[q] * (stress[3 * q] * n1 + stress[3 * q + 2] * n2);
     force[1] += points.weights[q] * (stress[3 * q + 2] * n1 + stress[3 * q + 1] * n2);
   }
-  return force;
+  return {static_cast<double>(force[0]), static_cast<double>(force[1])};
 }
 
 void integrate(const methods::Solution &solution, const problems::PlaneStatement &statement,
-               const problems::Quadrature &quadrature, Equilibrium &result) {
-  const auto boundary = problems::boundary_quadrature(statement);
+               const BoundaryPoints &boundary, const problems::Quadrature &quadrature, Equilibrium &result) {
   for (const auto &[id, condition] : statement.conditions) {
     const auto found = boundary.find(id);
     if (found == boundary.end())
@@ -69,10 +69,11 @@ double magnitude(const Force &force) { return std::hypot(force[0], force[1]); }
 
 /// Integral of the magnitude of what is applied: prescribed components of the traction, and the body force. Loads that
 /// balance within one boundary count as well.
-double applied_magnitude(const problems::PlaneStatement &statement, const problems::Quadrature &quadrature) {
+double applied_magnitude(const problems::PlaneStatement &statement, const BoundaryPoints &boundary,
+                         const problems::Quadrature &quadrature) {
   double total = 0;
   std::vector<Vector2> values;
-  for (const auto &[id, points] : problems::boundary_quadrature(statement)) {
+  for (const auto &[id, points] : boundary) {
     const auto condition = statement.conditions.find(id);
     if (condition == statement.conditions.end() || !condition->second.traction)
       continue;
@@ -95,11 +96,9 @@ double applied_magnitude(const problems::PlaneStatement &statement, const proble
 }
 
 /// Integral of the magnitude of sigma n over the whole boundary.
-double carried_magnitude(const methods::Solution &solution, const problems::PlaneStatement &statement) {
+double carried_magnitude(const methods::Solution &solution, const BoundaryPoints &boundary) {
   double total = 0;
-  for (const auto &[id, points] : problems::boundary_quadrature(statement)) {
-    if (!statement.conditions.contains(id))
-      continue;
+  for (const auto &[id, points] : boundary) {
     std::vector<double> s(3 * points.points.size());
     solution.evaluate("stress", points.points, s);
     for (std::size_t q = 0; q < points.points.size(); ++q) {
@@ -114,12 +113,13 @@ double carried_magnitude(const methods::Solution &solution, const problems::Plan
 
 Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
                         const problems::Quadrature &quadrature) {
+  const auto boundary = problems::boundary_quadrature(statement);
   Equilibrium result;
   if (const auto own = solution.own_forces()) {
     result.boundary = own->boundary;
     result.body = own->body;
   } else
-    integrate(solution, statement, quadrature, result);
+    integrate(solution, statement, boundary, quadrature, result);
 
   Force sum = result.body;
   double all = magnitude(result.body);
@@ -128,8 +128,8 @@ Equilibrium equilibrium(const methods::Solution &solution, const problems::Plane
       sum[k] += force[k];
     all += magnitude(force);
   }
-  const double loads = applied_magnitude(statement, quadrature);
-  const double scale = loads > 1e-12 * all ? loads : carried_magnitude(solution, statement);
+  const double loads = applied_magnitude(statement, boundary, quadrature);
+  const double scale = loads > 1e-12 * all ? loads : carried_magnitude(solution, boundary);
   result.imbalance = scale > 0 ? magnitude(sum) / scale : 0;
   return result;
 }

@@ -94,20 +94,21 @@ TEST(ForceBalance, an_exact_stress_balances_its_loads) {
 TEST(ForceBalance, a_wrong_stress_leaves_its_share) {
   const auto statement = quarter_ring();
   const auto wrong = metrics::equilibrium(LinearStress(1.1), statement, {});
-  // The magnitude of the tractions on the arcs and on the line x1 = 0, by the midpoint rule.
+  // The magnitude of the tractions on the arcs and on the line x1 = 0, by Simpson's rule.
   const auto traction = [](double x2, double n1, double n2) {
     return std::hypot((2 + 3 * x2) * n1 + .5 * n2, .5 * n1 - n2);
   };
-  double loads = 0;
-  constexpr int n = 20000;
-  for (int i = 0; i < n; ++i) {
-    const double t = (i + .5) / n;
+  const auto all = [&](double t) {
     const double c = std::cos(t * pi / 2);
     const double s = std::sin(t * pi / 2);
-    loads += (2 * traction(2 * s, c, s) + traction(s, c, s)) * pi / 2 / n + traction(1 + t, -1, 0) / n;
-  }
+    return (2 * traction(2 * s, c, s) + traction(s, c, s)) * pi / 2 + traction(1 + t, -1, 0);
+  };
+  double loads = 0;
+  constexpr int n = 2000;
+  for (int i = 0; i < n; ++i)
+    loads += (all(double(i) / n) + 4 * all((i + .5) / n) + all((i + 1.) / n)) / (6 * n);
   // Only the reaction comes from the solution: a tenth of it is left over.
-  EXPECT_NEAR(wrong.imbalance, .1 * std::hypot(.5, 1) / loads, 1e-9); // of the midpoint rule
+  EXPECT_NEAR(wrong.imbalance, .1 * std::hypot(.5, 1) / loads, 1e-12);
 }
 
 /// Loads that balance on one boundary are loads: a small imbalance beside them is small.
@@ -122,7 +123,8 @@ TEST(ForceBalance, loads_that_balance_among_themselves_count) {
     statement.conditions.at(id).traction = {};
   const auto result = metrics::equilibrium(LinearStress(1), statement, {});
   // The integral of 2e6 |cos t - sin t| over the arc of radius 2 is 8e6 (sqrt 2 - 1).
-  EXPECT_NEAR(result.imbalance, std::hypot(.5, 1) / (8e6 * (std::sqrt(2) - 1)), 1e-9);
+  // The kink at the diagonal costs the quadrature some digits.
+  EXPECT_NEAR(result.imbalance / std::hypot(.5, 1) * 8e6 * (std::sqrt(2) - 1), 1, 1e-4);
 }
 
 /// Held all around, nothing is applied: the scale is what the boundary carries, not what is left over.
