@@ -1,5 +1,7 @@
 #include "comparisons/hard_cases/solvers.h"
 
+#include "comparisons/scene/default_parameters.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,19 +12,6 @@ namespace comparisons::hard_cases {
 namespace {
 
 using scene::Value;
-
-scene::Parameters parameters_of(const scene::MethodDescription &description,
-                                const std::map<std::string, Value> &given) {
-  scene::Parameters parameters;
-  for (const auto &declaration : description.parameters) {
-    const auto found = given.find(declaration.name);
-    if (found != given.end())
-      parameters.add({declaration, found->second, true, {}});
-    else if (declaration.default_value)
-      parameters.add({declaration, *declaration.default_value, false, {}});
-  }
-  return parameters;
-}
 
 std::vector<std::string> labels(const std::function<bool(const Solver &)> &wanted) {
   std::vector<std::string> result;
@@ -75,7 +64,7 @@ std::unique_ptr<methods::Solution> solve(const std::string &label, const problem
   auto given = solver->keys;
   for (const auto &[key, value] : keys)
     given.insert_or_assign(key, value);
-  const auto parameters = parameters_of(method->description, given);
+  const auto parameters = scene::default_parameters(method->description.parameters, given);
   return method->solve({statement, [&] { return cloud; }, [&] { return mesh; }, parameters});
 }
 

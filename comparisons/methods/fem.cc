@@ -159,13 +159,8 @@ Method fem() {
   };
   method.description.effects = {"elasticity", "body_force", "thermal_expansion"};
   method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
-    const double nu = context.material.real("nu");
-    if (context.method.text("element") != taylor_hood && context.material.text("model") == "plane strain" &&
-        nu > 0.49 && nu < 0.5)
-      diagnostics.warning(context.material.location("nu"), "material.nu",
-                          fmt::format("{} is nearly incompressible: displacement methods in plane strain lock above "
-                                      "0.49, and their errors grow",
-                                      nu));
+    if (context.method.text("element") != taylor_hood)
+      check_locking(context, diagnostics);
   };
   method.solve = solve;
   return method;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "comparisons/methods/cloud_report.h"
 #include "comparisons/methods/solution.h"
 #include "comparisons/problems/plane_problem.h"
 #include "comparisons/scene/vocabulary.h"
@@ -32,10 +31,9 @@ struct Method {
   scene::MethodDescription description;
   /// @throws Refused, or any std::exception for a failure
   std::function<std::unique_ptr<Solution>(const SolveRequest &)> solve;
-  /// Looks at the particles without solving; empty for a method that has none.
-  /// @param sample also assembles the rows of a few particles, to tell what all will take
+  /// Looks at the particles and assembles the rows of a few, without solving; empty for a method that has none.
   /// @throws as solve
-  std::function<CloudReport(const SolveRequest &, bool sample)> inspect;
+  std::function<CloudReport(const SolveRequest &)> inspect;
 };
 
 /// The one table of methods: strong, weak1, weak2, hybrid, mixed, fem.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "comparisons/methods/cloud_report.h"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -52,6 +54,9 @@ public:
   virtual std::vector<std::array<double, 2>> own_points() const { return {}; }
   /// Figures at own_points(), such as smoothing_length (m) and n_neighbours, to be shown beside the fields.
   virtual std::map<std::string, std::vector<double>> own_figures() const { return {}; }
+
+  /// How well the particles suit the basis; nothing for a method that has none. Computed at the call.
+  virtual std::optional<CloudReport> cloud() const { return {}; }
 
   /// Nothing: the forces are integrals of the stress over the boundary.
   virtual std::optional<ForceBalance> own_forces() const { return {}; }

@@ -1,6 +1,7 @@
 #include "comparisons/problems/geometry_problem.h"
 
 #include "comparisons/problems/boundary_foot.h"
+#include "comparisons/problems/domain_boundary.h"
 
 #include "comparisons/geometry/mesh_operations.h"
 
@@ -87,15 +88,8 @@ Cloud GeometryProblem::cloud(const scene::Level &level) const {
 
 Cloud GeometryProblem::generated(const Mesh &mesh, std::size_t n_particles) const {
   meshless::cloud_generation::CloudRequest request;
-  for (const auto &region : geometry_->statement.regions) {
-    std::vector<meshless::domain::BoundaryPiece> pieces;
-    for (const auto &piece : region.boundary) {
-      pieces.push_back({piece.begin, piece.end, piece.id});
-      if (piece.arc)
-        pieces.back().arc = {piece.arc->centre, piece.arc->counter_clockwise};
-    }
-    request.regions.emplace_back(std::move(pieces));
-  }
+  for (const auto &region : geometry_->statement.regions)
+    request.regions.push_back(domain_boundary(region.boundary));
   const auto spacing = geometry::vertex_spacing(mesh);
   const meshless::cloud::PointTree<2> tree(mesh.vertices);
   request.spacing = [&](std::span<const Point2> points, std::span<double> values) {

@@ -1,6 +1,7 @@
 #include "comparisons/geometry/mesh_operations.h"
 #include "comparisons/problems/boundary_foot.h"
 #include "comparisons/problems/cloud_file.h"
+#include "comparisons/problems/domain_boundary.h"
 #include "comparisons/problems/exact_solutions.h"
 #include "comparisons/problems/expression_fields.h"
 #include "comparisons/problems/geometry_checks.h"
@@ -222,13 +223,7 @@ private:
     for (std::size_t r = 0; r < shape.region_names.size(); ++r) {
       statement.regions.push_back({shape.region_names[r], material_of(tables_.materials[r].keys), shape.boundaries[r]});
       try {
-        std::vector<meshless::domain::BoundaryPiece> pieces;
-        for (const auto &piece : shape.boundaries[r]) {
-          pieces.push_back({piece.begin, piece.end, piece.id});
-          if (piece.arc)
-            pieces.back().arc = {piece.arc->centre, piece.arc->counter_clockwise};
-        }
-        boundaries_.emplace_back(std::move(pieces));
+        boundaries_.push_back(domain_boundary(shape.boundaries[r]));
       } catch (const std::invalid_argument &reason) {
         error({.file = path_.string()}, {},
               fmt::format("the boundary of the region '{}': {}", shape.region_names[r], reason.what()));

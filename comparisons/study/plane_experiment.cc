@@ -115,8 +115,8 @@ public:
     for (auto &doubt : metrics::doubts(indicators))
       cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
-    if (method.inspect)
-      add_cloud_quality(method.inspect(solve_request, false), cell.quantities);
+    if (const auto cloud = solution->cloud())
+      add_cloud_quality(*cloud, cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
     const double evaluation = watch.lap();
@@ -139,7 +139,7 @@ public:
     const auto &method = find(request.name);
     if (!method.inspect)
       return {};
-    return method.inspect(to_solve(request, level), true);
+    return method.inspect(to_solve(request, level));
   }
 
   /// Constants were measured on one core of a 2 GHz server.

@@ -1,6 +1,7 @@
 #include "comparisons/benchmarks/geometry/benchmark.h"
 
 #include "comparisons/problems/geometry_problem.h"
+#include "comparisons/scene/default_parameters.h"
 #include "comparisons/scene/geometry_tables.h"
 #include "comparisons/study/plane_experiment.h"
 
@@ -11,18 +12,6 @@
 namespace comparisons::benchmarks::geometry {
 
 namespace {
-
-/// Default values of a method's keys, with some of them given.
-scene::Parameters parameters_of(const scene::MethodDescription &method, const std::string &key,
-                                const std::string &value) {
-  scene::Parameters parameters;
-  for (const auto &declaration : method.parameters)
-    if (declaration.name == key)
-      parameters.add({declaration, value, true, {}});
-    else if (declaration.default_value)
-      parameters.add({declaration, *declaration.default_value, false, {}});
-  return parameters;
-}
 
 /// The fields of a solution of a method; the solution lives as long as they do.
 problems::ExactSolution fields_of(std::shared_ptr<const methods::Solution> solution) {
@@ -47,7 +36,7 @@ problems::ReferenceSolver reference_solver(const std::vector<methods::Method> &m
     const auto fem = std::ranges::find(methods, "fem", [](const methods::Method &m) { return m.description.name; });
     if (fem == methods.end())
       throw std::logic_error("there is no method 'fem' to make a reference with");
-    const auto parameters = parameters_of(fem->description, "element", element);
+    const auto parameters = scene::default_parameters(fem->description.parameters, {{"element", element}});
     return fields_of(fem->solve({statement, [] { return problems::Cloud{}; }, [&] { return mesh; }, parameters}));
   };
 }

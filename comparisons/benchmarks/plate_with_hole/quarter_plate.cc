@@ -1,5 +1,7 @@
 #include "comparisons/benchmarks/plate_with_hole/quarter_plate.h"
 
+#include "comparisons/problems/domain_boundary.h"
+
 #include "meshless/cloud_generation/generator.h"
 #include "meshless/linear_algebra/gauss_legendre.h"
 
@@ -13,16 +15,6 @@ namespace {
 
 namespace generation = meshless::cloud_generation;
 using problems::Point2;
-
-meshless::domain::Boundary domain_of(const QuarterPlate &plate) {
-  std::vector<meshless::domain::BoundaryPiece> pieces;
-  for (const auto &piece : boundary(plate)) {
-    pieces.push_back({piece.begin, piece.end, piece.id});
-    if (piece.arc)
-      pieces.back().arc = {piece.arc->centre, piece.arc->counter_clockwise};
-  }
-  return meshless::domain::Boundary(std::move(pieces));
-}
 
 /// Block 0 reaches to the right edge, block 1 to the top. `along` and `outwards` are in [0, 1], from the x1 axis to
 /// the x2 axis through both blocks, and from the hole to the outer edge.
@@ -96,7 +88,7 @@ std::size_t n_on_hole(std::size_t n_particles) {
 
 problems::Cloud generated_cloud(const QuarterPlate &plate, std::size_t n_particles, double hole_spacing,
                                 std::uint64_t seed) {
-  generation::CloudRequest request{{domain_of(plate)}, {}};
+  generation::CloudRequest request{{problems::domain_boundary(boundary(plate))}, {}};
   request.seed = seed;
   if (n_particles > 0) {
     const std::size_t n = n_on_hole(n_particles);
@@ -116,7 +108,7 @@ problems::Cloud generated_cloud(const QuarterPlate &plate, std::size_t n_particl
 }
 
 void jitter(const QuarterPlate &plate, double amount, std::uint64_t seed, problems::Cloud &cloud) {
-  const std::vector<meshless::domain::Boundary> domain{domain_of(plate)};
+  const std::vector<meshless::domain::Boundary> domain{problems::domain_boundary(boundary(plate))};
   generation::jitter(domain, cloud.spacing, {}, amount, seed, cloud.positions);
   cloud.spacing = generation::local_spacing(domain, cloud.positions);
 }

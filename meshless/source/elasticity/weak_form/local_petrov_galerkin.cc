@@ -1,14 +1,13 @@
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 
+#include "../row_assembly.h"
 #include "assembler.h"
 
-#include "meshless/linear_algebra/sparse_lu.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -48,27 +47,14 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   require_basis_at_particles(*surroundings, *particles, *basis);
   assembler.seconds.basis += watch.lap();
 
-  linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
-  std::vector<double> right_hand_side;
-  right_hand_side.reserve(2 * n);
-  for (std::size_t i = 0; i < n; ++i)
-    assembler.assemble(i, matrix, right_hand_side);
-  watch.lap();
-  const auto divisors = matrix.equilibrate_rows();
-  for (std::size_t row = 0; row < divisors.size(); ++row)
-    right_hand_side[row] /= divisors[row];
-  assembler.seconds.assembly += watch.lap();
-  auto lu = linear_algebra::solve_lu(matrix, right_hand_side);
-  assembler.seconds.solve = watch.lap();
-
-  const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
+  auto solved = assemble_and_solve(assembler, n, 2);
   ParticleSolution solution(std::move(particles), std::move(basis), parameters.derivatives, surroundings,
-                            std::move(lu.solution));
+                            std::move(solved.solution));
   solution.set_thermal_strain(problem.thermal_strain);
   solution.seconds = assembler.seconds;
-  solution.nonzeros = matrix.nonzeros();
-  solution.backward_error = backward;
-  solution.reciprocal_condition = lu.reciprocal_condition;
+  solution.nonzeros = solved.nonzeros;
+  solution.backward_error = solved.backward_error;
+  solution.reciprocal_condition = solved.reciprocal_condition;
   return solution;
 }
 
@@ -76,20 +62,13 @@ RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &pa
                       const basis::ShapeFunctions<2> &basis, const Parameters &parameters, std::size_t n_sampled) {
   problem.check();
   problem.require_inside(particles);
-  const std::size_t n = particles.size();
-  n_sampled = std::min(n_sampled, n);
-  if (n_sampled == 0)
-    return {};
   linear_algebra::Stopwatch watch;
   const Surroundings surroundings(problem.regions);
   Assembler assembler(problem, surroundings, particles, basis, parameters);
   const double once = watch.lap();
-  linear_algebra::SparseRows matrix(2 * static_cast<std::int64_t>(n));
-  std::vector<double> right_hand_side;
-  for (std::size_t k = 0; k < n_sampled; ++k)
-    assembler.assemble(k * n / n_sampled, matrix, right_hand_side);
-  const double factor = static_cast<double>(n) / static_cast<double>(n_sampled);
-  return {factor * static_cast<double>(matrix.nonzeros()), once + factor * watch.lap()};
+  auto sample = elasticity::sample_rows(assembler, particles.size(), 2, n_sampled);
+  sample.seconds += once;
+  return sample;
 }
 
 EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<const double> densities,

@@ -44,4 +44,11 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
                        std::shared_ptr<const basis::ShapeFunctions<2>> displacement_basis,
                        std::shared_ptr<const basis::ShapeFunctions<2>> pressure_basis, const Parameters &parameters);
 
+/// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.
+/// @throws as solve
+RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                      const basis::ShapeFunctions<2> &displacement_basis,
+                      const basis::ShapeFunctions<2> &pressure_basis, const Parameters &parameters,
+                      std::size_t n_sampled);
+
 } // namespace meshless::elasticity::mixed_form

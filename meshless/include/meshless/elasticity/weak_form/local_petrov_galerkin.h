@@ -3,6 +3,7 @@
 #include "meshless/elasticity/equations_of_motion.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/plane_problem.h"
+#include "meshless/elasticity/row_sample.h"
 #include "meshless/kernels/kernel_table.h"
 
 #include <memory>
@@ -72,12 +73,6 @@ struct Parameters {
 ///   point; linear_algebra::SolveError; std::invalid_argument for an ill-posed problem
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters);
-
-/// What the rows of all particles take, from those of a few.
-struct RowSample {
-  double nonzeros = 0;
-  double seconds = 0;
-};
 
 /// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.
 /// @throws as solve

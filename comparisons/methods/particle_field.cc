@@ -1,0 +1,97 @@
+#include "comparisons/methods/particle_field.h"
+
+#include "meshless/basis/grouped_evaluation.h"
+#include "meshless/elasticity/cloud_quality.h"
+#include "meshless/elasticity/surroundings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace comparisons::methods {
+
+namespace elasticity = meshless::elasticity;
+
+CloudReport cloud_report(const Prepared &prepared) {
+  const auto quality = elasticity::cloud_quality(elasticity::Surroundings(prepared.problem.regions),
+                                                 *prepared.particles, *prepared.basis, prepared.test_radius);
+  return {quality.fewest_neighbours,    quality.median_neighbours, quality.most_neighbours, quality.smallest_distance,
+          quality.smallest_pivot_ratio, quality.worst_point,       prepared.n_enlarged,     prepared.largest_factor};
+}
+
+ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared prepared,
+                             std::vector<std::string> warnings)
+    : solution_(std::move(solution)), prepared_(std::move(prepared)) {
+  const auto &s = solution_.seconds;
+  record_.warnings = std::move(warnings);
+  record_.n_points = static_cast<std::int64_t>(solution_.particles().size());
+  record_.n_dofs = (solution_.has_pressure() ? 3 : 2) * record_.n_points;
+  record_.nonzeros = solution_.nonzeros;
+  record_.seconds = {{"points", prepared_.points_seconds},
+                     {"neighbours", s.neighbours + prepared_.enlarge_seconds},
+                     {"basis", s.basis},
+                     {"assembly", s.assembly},
+                     {"solve", s.solve}};
+  record_.quantities = {{"backward_error", solution_.backward_error},
+                        {"reciprocal_condition", solution_.reciprocal_condition}};
+  if (prepared_.n_enlarged > 0) {
+    record_.quantities["n_enlarged"] = static_cast<double>(prepared_.n_enlarged);
+    record_.quantities["largest_enlargement"] = prepared_.largest_factor;
+    record_.warnings.push_back(fmt::format("smoothing lengths of {} particles enlarged, at most by {:.2f}",
+                                           prepared_.n_enlarged, prepared_.largest_factor));
+  }
+  if (solution_.backward_error > 1e-10)
+    record_.warnings.push_back(
+        fmt::format("the linear system was solved with a backward error of {:.1e} only", solution_.backward_error));
+}
+
+std::vector<std::string> ParticleField::fields() const {
+  if (solution_.has_pressure())
+    return {"displacement", "stress", "pressure"};
+  return {"displacement", "stress"};
+}
+std::size_t ParticleField::n_components(std::string_view field) const {
+  return field == "pressure" ? 1 : field == "displacement" ? 2 : 3;
+}
+
+void ParticleField::evaluate(std::string_view field, std::span<const std::array<double, 2>> points,
+                             std::span<double> values) const {
+  if (field == "displacement") {
+    std::vector<elasticity::Vector2> u(points.size());
+    solution_.displacement(points, u);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      std::copy(u[i].begin(), u[i].end(), values.begin() + static_cast<std::ptrdiff_t>(2 * i));
+  } else if (field == "stress") {
+    std::vector<elasticity::Stress2> s(points.size());
+    solution_.stress(points, s);
+    for (std::size_t i = 0; i < s.size(); ++i)
+      std::copy(s[i].begin(), s[i].end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  } else if (field == "pressure" && solution_.has_pressure())
+    solution_.pressure(points, values);
+  else
+    throw std::invalid_argument(fmt::format("no field '{}'; there are {}", field, fmt::join(fields(), ", ")));
+}
+
+std::vector<std::array<double, 2>> ParticleField::own_points() const {
+  const auto positions = solution_.particles().positions();
+  return {positions.begin(), positions.end()};
+}
+
+std::map<std::string, std::vector<double>> ParticleField::own_figures() const {
+  const auto &particles = solution_.particles();
+  const meshless::cloud::CandidateSearch<2> search(particles, prepared_.basis->support());
+  const meshless::basis::GroupedEvaluation<2> evaluation(*prepared_.basis, search);
+  std::vector<double> n_neighbours, regularity;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    evaluation.visit(particles.positions().subspan(i, 1), {.value = true}, [&](const auto &group) {
+      n_neighbours.push_back(static_cast<double>(group.regularity.n_neighbours));
+      regularity.push_back(group.regularity.smallest_pivot_ratio);
+    });
+  return {{"smoothing_length", {particles.smoothing_lengths().begin(), particles.smoothing_lengths().end()}},
+          {"n_neighbours", std::move(n_neighbours)},
+          {"moment_pivot_ratio", std::move(regularity)}};
+}
+
+} // namespace comparisons::methods
