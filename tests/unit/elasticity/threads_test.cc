@@ -70,7 +70,9 @@ TEST(Threads, several_take_part) {
   solve(WeakForm::weak1, problem, particles, 2);
   EXPECT_EQ(others, 0);
   const Threads threads(2);
-  solve(WeakForm::weak1, problem, particles, 2);
+  // On a busy machine the second thread may come too late for one solve, not for fifty.
+  for (int k = 0; k < 50 && others == 0; ++k)
+    solve(WeakForm::weak1, problem, particles, 2);
   EXPECT_GT(others, 0);
 }
 
