@@ -5,6 +5,7 @@
 #include "comparisons/reports/comparison_section.h"
 #include "comparisons/reports/figures.h"
 #include "comparisons/reports/files.h"
+#include "comparisons/reports/growth.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/latex.h"
 #include "comparisons/reports/ledger_section.h"
@@ -87,6 +88,7 @@ Document report_document(const Results &results) {
   append_rates(document, groups);
   append_ledger(document, results);
   append_phases(document, groups);
+  append_growth(document, groups);
   append_clouds(document, groups);
   append_further_quantities(document, groups);
   std::size_t n_series = 0;

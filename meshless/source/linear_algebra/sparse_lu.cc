@@ -57,10 +57,12 @@ SparseLu::~SparseLu() = default;
 
 double SparseLu::reciprocal_condition() const { return handles_->reciprocal_condition; }
 
-void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> solution) const {
+void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> solution, Refinement refinement) const {
   double control[UMFPACK_CONTROL];
   double info[UMFPACK_INFO];
   umfpack_dl_defaults(control);
+  if (refinement == Refinement::none)
+    control[UMFPACK_IRSTEP] = 0;
   check(umfpack_dl_solve(UMFPACK_At, reinterpret_cast<const SuiteSparse_long *>(matrix_.offsets().data()),
                          reinterpret_cast<const SuiteSparse_long *>(matrix_.columns().data()), matrix_.values().data(),
                          solution.data(), right_hand_side.data(), handles_->numeric, control, info),

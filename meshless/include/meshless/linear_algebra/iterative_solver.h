@@ -20,7 +20,8 @@ struct IterativeResult {
 ///
 /// The operators of smooth particle bases have wide rows of which little matters: entries of a block row below `drop`
 /// of its largest are left out, and the rest is factorised without fill, in single precision, in reverse Cuthill-McKee
-/// order. Fill, as in ILUT, made systems of order 3 and 4 diverge, and costs more than it saves.
+/// order. Fill, as in ILUT, made systems of order 3 and 4 diverge, and costs more than it saves. A coarse system of
+/// aggregates takes what the factors do not see: the number of iterations hardly depends on that of particles.
 ///
 /// The iteration starts anew from the true residual until the backward error is below 1e-15, or does not fall tenfold.
 ///

@@ -30,9 +30,11 @@ public:
   SparseLu(const SparseLu &) = delete;
   SparseLu &operator=(const SparseLu &) = delete;
 
-  /// x with A x = b, refined iteratively. Both have n_rows() entries.
+  enum class Refinement { iterative, none };
+  /// x with A x = b. Both have n_rows() entries.
   /// @throws SolveError if an unknown is not finite
-  void solve(std::span<const double> right_hand_side, std::span<double> solution) const;
+  void solve(std::span<const double> right_hand_side, std::span<double> solution,
+             Refinement refinement = Refinement::iterative) const;
   double reciprocal_condition() const;
 
 private:
