@@ -1,6 +1,7 @@
 #include "comparisons/metrics/machine.h"
 
 #include "meshless/linear_algebra/pack.h"
+#include "meshless/parallel/threads.h"
 #include "petrov_commit.h"
 
 #include <fmt/format.h>
@@ -78,6 +79,7 @@ reports::Program describe_program() {
 void use_threads(int threads) {
   setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
   openblas_set_num_threads(threads);
+  meshless::parallel::set_threads(threads);
 }
 
 std::vector<std::string> reasons_not_comparable(const reports::Program &program, const reports::Machine &machine,
