@@ -2,6 +2,7 @@
 // unknowns: seconds by phase. Run with OPENBLAS_NUM_THREADS=1 for one core.
 
 #include "fem_reference/elasticity/plane_elasticity.h"
+#include "fem_reference/mesh/formulas.h"
 
 #include <benchmark/benchmark.h>
 
@@ -36,11 +37,11 @@ void cantilever(benchmark::State &state, LinearSolver solver) {
   const auto cells_x = static_cast<unsigned>(state.range(1));
   const Options options{static_cast<int>(state.range(0)), solver};
   const PlaneProblem problem{mesh::rectangle({0, 0}, {length, width}, cells_x + 1, cells_x / 5 + 1),
-                             Material(youngs_modulus, poisson_ratio, PlaneModel::plane_stress),
+                             {Material(youngs_modulus, poisson_ratio, PlaneModel::plane_stress)},
                              {{0, {{ConditionKind::displacement, ConditionKind::displacement}, clamp, {}}},
                               {1, {{ConditionKind::traction, ConditionKind::traction}, {}, pull}},
-                              {2, {}},
-                              {3, {}}}};
+                              {2, BoundaryCondition{}},
+                              {3, BoundaryCondition{}}}};
   Seconds sum;
   for ([[maybe_unused]] auto _ : state) {
     const auto solution = solve(problem, options);
@@ -61,11 +62,11 @@ void cantilever(benchmark::State &state, LinearSolver solver) {
 /// Evaluation of the stress at 500 000 points spread over the plate.
 void evaluation(benchmark::State &state) {
   const PlaneProblem problem{mesh::rectangle({0, 0}, {length, width}, 321, 65),
-                             Material(youngs_modulus, poisson_ratio, PlaneModel::plane_stress),
+                             {Material(youngs_modulus, poisson_ratio, PlaneModel::plane_stress)},
                              {{0, {{ConditionKind::displacement, ConditionKind::displacement}, clamp, {}}},
                               {1, {{ConditionKind::traction, ConditionKind::traction}, {}, pull}},
-                              {2, {}},
-                              {3, {}}}};
+                              {2, BoundaryCondition{}},
+                              {3, BoundaryCondition{}}}};
   const auto solution = solve(problem, {2, LinearSolver::cholesky});
   std::vector<Point> points;
   for (unsigned k = 0; k < 500000; ++k) // a rank-1 lattice: no order that a cache would like

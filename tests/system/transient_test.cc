@@ -34,19 +34,22 @@ fs::path file_in(const fs::path &folder, const std::string &end) {
 const std::string slab = "schema = 1\nbenchmark = \"detonation\"\n[[method]]\nname = \"sph\"\n[time]\nend = \"10 us\"\n"
                          "snapshots = 2\ncheckpoint_every = 50\n[study]\nlevels = [1000]\n";
 
-TEST(Transient, KilledAnywhereAndResumedItEndsWithTheSameBits) {
+/// Kills `times` runs of a scene at random moments after their first checkpoint, resumes them, and compares the bytes
+/// of the file whose name ends so with those of a run that nobody has killed.
+void expect_the_same_bits(const std::string &scene, const std::string &result, int times, unsigned seed) {
   const Folder folder;
-  folder.write("slab.toml", slab);
-  ASSERT_EQ(run_program({"run", "slab.toml", "--output", "whole", "--quiet"}, folder.path()).exit_code, 0);
-  const std::string whole = bytes_of(file_in(folder / "whole/series", "profile-2.csv"));
-  ASSERT_FALSE(whole.empty());
-  std::mt19937 random(5);
+  folder.write("scene.toml", scene);
+  ASSERT_EQ(run_program({"run", "scene.toml", "--output", "whole", "--quiet"}, folder.path()).exit_code, 0);
+  const auto file = file_in(folder / "whole/series", result);
+  ASSERT_FALSE(file.empty());
+  const std::string whole = bytes_of(file);
+  std::mt19937 random(seed);
   int n_resumed = 0;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < times; ++i) {
     SCOPED_TRACE(i);
     const std::string out = "out" + std::to_string(i);
-    Process process({"run", "slab.toml", "--output", out}, folder.path());
-    for (int wait = 0; wait < 4000 && file_in(folder / out / "checkpoints", ".cbor").empty(); ++wait)
+    Process process({"run", "scene.toml", "--output", out}, folder.path());
+    for (int wait = 0; wait < 8000 && file_in(folder / out / "checkpoints", ".cbor").empty(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 300));
     process.send(SIGKILL);
@@ -55,12 +58,38 @@ TEST(Transient, KilledAnywhereAndResumedItEndsWithTheSameBits) {
     ASSERT_FALSE(file_in(folder / out / "checkpoints", ".cbor").empty());
     n_resumed += !finished;
     const auto again =
-        run_program({"run", "slab.toml", "--output", out, "--quiet", "--set", "time.resume=true"}, folder.path());
+        run_program({"run", "scene.toml", "--output", out, "--quiet", "--set", "time.resume=true"}, folder.path());
     ASSERT_EQ(again.exit_code, 0) << again.err << again.out;
-    EXPECT_TRUE(bytes_of(file_in(folder / out / "series", "profile-2.csv")) == whole);
+    EXPECT_TRUE(bytes_of(file_in(folder / out / "series", result)) == whole);
   }
-  EXPECT_GT(n_resumed, 0) << "no run was cut short";
+  EXPECT_GT(n_resumed, times / 2) << "too few runs were cut short";
 }
+
+TEST(Transient, KilledAnywhereAndResumedItEndsWithTheSameBits) { expect_the_same_bits(slab, "profile-2.csv", 10, 5); }
+
+std::string plate(const std::string &method, const std::string &time) {
+  return "schema = 1\nbenchmark = \"plate_vibration\"\n[problem]\nsupports = \"left\"\nlength = \"1 m\"\nwidth = \"0.2 "
+         "m\"\n"
+         "[[method]]\n" +
+         method + "[time]\n" + time +
+         "checkpoint_every = 20\n[study]\nanalysis = \"transient\"\nlevels = [\"21x5\"]\nrepeats = 1\n";
+}
+
+// Curve of deflection and energies of every step, and so of what was computed before the run was killed.
+TEST(Transient, AKilledPlateOfElementsEndsWithTheSameBits) {
+  expect_the_same_bits(plate("name = \"fem\"\nelement = \"Q2\"\n", "end = \"8 ms\"\ncfl = 0.5\n"), "tip.csv", 10, 6);
+}
+
+TEST(Transient, AKilledPlateOfParticlesEndsWithTheSameBits) {
+  expect_the_same_bits(plate("name = \"weak2\"\n", "end = \"8 ms\"\ncfl = 1.0\n"), "tip.csv", 10, 7);
+}
+
+const std::string bar_scene =
+    "schema = 1\nbenchmark = \"bar_wave\"\n[effects]\nelasticity = true\ninertia = true\n"
+    "artificial_viscosity = true\n[[method]]\nname = \"ssph\"\nkernel_parameter = 1.6\n[time]\n"
+    "end = \"500 us\"\ncheckpoint_every = 100\n[study]\nlevels = [1600]\nrepeats = 1\n";
+
+TEST(Transient, AKilledBarEndsWithTheSameBits) { expect_the_same_bits(bar_scene, "stress-1.csv", 10, 8); }
 
 TEST(Transient, ACheckpointThatDoesNotFitIsRefusedByName) {
   const Folder folder;

@@ -1,5 +1,7 @@
 #include "meshless/dynamics/elastic_bar.h"
 
+#include "bar_step.h"
+
 #include "meshless/dynamics/violation.h"
 #include "meshless/linear_algebra/diagonals.h"
 #include "meshless/linear_algebra/eigenvalues.h"
@@ -27,51 +29,6 @@ namespace {
 constexpr std::int64_t check_interval = 200;
 constexpr double most_energy = 1.5;
 
-/// y = keep y + factor A x along lanes, `x` with margins; the number of diagonals is a constant for the common
-/// stencils, `keep` is 1 and not there if nothing is damped.
-template <int half_width, bool damped>
-void add_product(const Diagonals &a, const double *x, double factor, double keep, double *y) {
-  const std::size_t n = a.n_rows();
-  std::array<const double *, 2 * half_width + 1> d;
-  for (int k = -half_width; k <= half_width; ++k)
-    d[static_cast<std::size_t>(k + half_width)] = a.diagonal(k);
-  for (std::size_t i = 0; i < n; i += n_lanes) {
-    Pack sum = load(d[0] + i) * load(x + i - half_width);
-    for (int k = 1; k <= 2 * half_width; ++k)
-      sum += load(d[static_cast<std::size_t>(k)] + i) * load(x + static_cast<std::ptrdiff_t>(i) + k - half_width);
-    if constexpr (damped)
-      store(keep * load(y + i) + factor * sum, y + i);
-    else
-      store(load(y + i) + factor * sum, y + i);
-  }
-}
-
-void add_product_of_any_width(const Diagonals &a, const double *x, double factor, double keep, double *y) {
-  const auto w = static_cast<std::ptrdiff_t>(a.half_width());
-  for (std::size_t i = 0; i < a.n_rows(); i += n_lanes) {
-    Pack sum = 0;
-    for (std::ptrdiff_t k = -w; k <= w; ++k)
-      sum += load(a.diagonal(k) + i) * load(x + static_cast<std::ptrdiff_t>(i) + k);
-    store(keep * load(y + i) + factor * sum, y + i);
-  }
-}
-
-template <bool damped>
-void add_product(const Diagonals &a, const double *x, double factor, double keep, double *y) {
-  switch (a.half_width()) {
-  case 1:
-    return add_product<1, damped>(a, x, factor, keep, y);
-  case 2:
-    return add_product<2, damped>(a, x, factor, keep, y);
-  case 3:
-    return add_product<3, damped>(a, x, factor, keep, y);
-  case 4:
-    return add_product<4, damped>(a, x, factor, keep, y);
-  default:
-    return add_product_of_any_width(a, x, factor, keep, y);
-  }
-}
-
 } // namespace
 
 class ElasticBar::Implementation {
@@ -79,16 +36,23 @@ public:
   explicit Implementation(const BarOptions &options)
       : options_(options), n_(options.positions.size()), spacing_(least_spacing(options)),
         c_(std::sqrt(options.youngs_modulus / options.density)), operators_(options.operators(options.positions)),
-        second_(operators_.second, c_ * c_) {
+        first_(operators_.first, options.youngs_modulus), second_(operators_.second, c_ * c_) {
     if (n_ < 5)
       throw std::invalid_argument(fmt::format("a bar needs five particles; found {}", n_));
     if (!(options.youngs_modulus > 0) || !(options.density > 0))
       throw std::invalid_argument("Young's modulus and density of a bar are positive");
-    margin_ = Diagonals::margin(second_.half_width());
+    margin_ = Diagonals::margin(std::max(first_.half_width(), second_.half_width()));
     displacement_.assign(n_ + 2 * margin_, 0.0);
     velocity_ = displacement_;
     if (options.viscosity)
       stressing_ = displacement_;
+    weights_ = displacement_;
+    for (std::size_t i = 0; i < n_; ++i)
+      weights_[margin_ + i] = 0.25 * ((i > 0 ? options.positions[i] - options.positions[i - 1] : 0) +
+                                      (i + 1 < n_ ? options.positions[i + 1] - options.positions[i] : 0));
+    prepare_rows();
+    left_stress_ = stress_of(options_.left_stress);
+    right_stress_ = stress_of(options_.right_stress);
     limit_ = find_limit();
   }
 
@@ -102,25 +66,26 @@ public:
       move_kernels();
     const double first_before = u(0);
     const double last_before = u(n_ - 1);
-    accelerate(dt);
-    drift(dt);
-    const double before = time_;
+    const double left_before = left_stress_;
+    const double right_before = right_stress_;
     time_ += dt;
     ++steps_;
-    set_end(0, options_.left_stress ? options_.left_stress(time_) : 0);
-    set_end(n_ - 1, options_.right_stress ? options_.right_stress(time_) : 0);
-    velocity_[margin_] = (u(0) - first_before) / dt;
-    velocity_[margin_ + n_ - 1] = (u(n_ - 1) - last_before) / dt;
-    if (options_.left_stress)
-      work_ -= 0.5 * (options_.left_stress(before) + options_.left_stress(time_)) * (u(0) - first_before);
-    if (options_.right_stress)
-      work_ += 0.5 * (options_.right_stress(before) + options_.right_stress(time_)) * (u(n_ - 1) - last_before);
+    left_stress_ = stress_of(options_.left_stress); // before the loop, which hides how long it takes
+    right_stress_ = stress_of(options_.right_stress);
+    step_(arrays_, {.length = dt, .left_stress = left_stress_, .right_stress = right_stress_});
+    const double *u = &displacement_[margin_];
+    work_ += 0.5 * ((right_before + right_stress_) * (u[n_ - 1] - last_before) -
+                    (left_before + left_stress_) * (u[0] - first_before));
     most_work_ = std::max(most_work_, std::abs(work_));
     if (steps_ % check_interval == 0)
       check();
   }
 
+  /// A sum of squares is not finite if a value is not.
   void check() const {
+    const double sum = energy();
+    if (sum <= most_energy * most_work_)
+      return;
     double fastest = 0;
     std::size_t place = 0;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -132,23 +97,26 @@ public:
         place = i;
       }
     }
-    if (energy() > most_energy * most_work_)
-      throw Violation(time_, static_cast<std::int64_t>(place), options_.positions[place],
-                      fmt::format("the energy {:.4g} J/m^2 is {:.3g} times the work put in: the scheme is unstable at "
-                                  "any time step (this particle is the fastest, {:.3g} m/s)",
-                                  energy(), energy() / most_work_, fastest));
+    throw Violation(time_, static_cast<std::int64_t>(place), options_.positions[place],
+                    fmt::format("the energy {:.4g} J/m^2 is {:.3g} times the work put in: the scheme is unstable at "
+                                "any time step (this particle is the fastest, {:.3g} m/s)",
+                                sum, sum / most_work_, fastest));
   }
 
   double energy() const {
-    double sum = 0;
-    const std::vector<double> sigma = stress();
-    for (std::size_t i = 0; i < n_; ++i) {
-      const double v = velocity_[margin_ + i];
-      const double weight = 0.5 * ((i > 0 ? options_.positions[i] - options_.positions[i - 1] : 0) +
-                                   (i + 1 < n_ ? options_.positions[i + 1] - options_.positions[i] : 0));
-      sum += 0.5 * weight * (options_.density * v * v + sigma[i] * sigma[i] / options_.youngs_modulus);
-    }
-    return sum;
+    const double *u = &displacement_[margin_];
+    const double *v = &velocity_[margin_];
+    const double *weights = &weights_[margin_]; // zero beyond the last particle
+    return with_half_width(first_.half_width(), [&]<int half_width>() {
+      const RowProducts<half_width> product(first_);
+      Pack sum = 0;
+      for (std::size_t i = 0; i < n_; i += n_lanes) {
+        const Pack sigma = product(u, i);
+        const Pack speed = load(v + i);
+        sum += load(weights + i) * (options_.density * speed * speed + (1 / options_.youngs_modulus) * sigma * sigma);
+      }
+      return reduce(sum);
+    });
   }
 
   std::vector<double> stress() const {
@@ -205,10 +173,12 @@ public:
     steps_ = static_cast<std::int64_t>(counters_[1]);
     work_ = counters_[2];
     most_work_ = counters_[3];
+    left_stress_ = stress_of(options_.left_stress);
+    right_stress_ = stress_of(options_.right_stress);
   }
 
   std::vector<effects::Usage> usage() const {
-    std::vector<effects::Usage> all{{"elasticity", second_.bytes(), steps_}, {"inertia", 0, steps_}};
+    std::vector<effects::Usage> all{{"elasticity", first_.bytes() + second_.bytes(), steps_}, {"inertia", 0, steps_}};
     if (options_.viscosity)
       all.push_back({"artificial_viscosity", stressing_.capacity() * sizeof(double), steps_});
     if (options_.damping)
@@ -217,13 +187,15 @@ public:
   }
 
   std::size_t bytes() const {
-    return second_.bytes() + (displacement_.capacity() + velocity_.capacity() + stressing_.capacity()) * sizeof(double);
+    return first_.bytes() + second_.bytes() +
+           (displacement_.capacity() + velocity_.capacity() + stressing_.capacity() + weights_.capacity()) *
+               sizeof(double);
   }
 
   const BarOptions &options() const { return options_; }
-  std::span<const double> own(const std::vector<double> &field) const { return {&field[margin_], n_}; }
-  const std::vector<double> &displacement() const { return displacement_; }
-  const std::vector<double> &velocity() const { return velocity_; }
+  std::span<const double> own(const linear_algebra::AlignedVector &field) const { return {&field[margin_], n_}; }
+  const linear_algebra::AlignedVector &displacement() const { return displacement_; }
+  const linear_algebra::AlignedVector &velocity() const { return velocity_; }
   double time() const { return time_; }
   std::int64_t steps() const { return steps_; }
   double c() const { return c_; }
@@ -244,47 +216,28 @@ private:
 
   double u(std::size_t i) const { return displacement_[margin_ + i]; }
 
-  void accelerate(double dt) {
-    const double *x = &displacement_[margin_];
-    if (options_.viscosity) {
-      // c^2 D2 u + b c D D2 v = c^2 D2 (u + b D / c v)
-      const double delay = options_.viscosity->diffusivity(c_, spacing_) / (c_ * c_);
-      const double *u = displacement_.data();
-      const double *v = velocity_.data();
-      double *sum = stressing_.data();
-      for (std::size_t i = margin_; i < margin_ + n_; i += n_lanes) // beyond the last one there are margins
-        store(load(u + i) + delay * load(v + i), sum + i);
-      std::fill_n(sum + margin_ + n_, n_lanes, 0.0);
-      x = sum + margin_;
-    }
-    double *v = &velocity_[margin_];
-    if (options_.damping)
-      add_product<true>(second_, x, dt, 1 - dt * options_.damping->rate, v);
+  double stress_of(const std::function<double(double)> &end) const { return end ? end(time_) : 0; }
+
+  /// What follows from the operators.
+  void prepare_rows() {
+    using effects::Absent;
+    const std::size_t w = second_.half_width();
+    if (options_.viscosity)
+      step_ = options_.damping ? bar_step_for<effects::LinearViscosity, effects::Damping>(w)
+                               : bar_step_for<effects::LinearViscosity, Absent>(w);
     else
-      add_product<false>(second_, x, dt, 1, v);
-  }
-
-  void drift(double dt) {
-    double *u = displacement_.data();
-    const double *v = velocity_.data();
-    for (std::size_t i = margin_; i < margin_ + n_; i += n_lanes) // velocities in the margins are zero
-      store(load(u + i) + dt * load(v + i), u + i);
-  }
-
-  /// Displacement of an end from its row of D1 and the stress there, (6.30).
-  void set_end(std::size_t i, double sigma) {
-    double sum = 0;
-    double own = 0;
-    const auto begin = static_cast<std::size_t>(operators_.first.offsets()[i]);
-    const auto end = static_cast<std::size_t>(operators_.first.offsets()[i + 1]);
-    for (std::size_t e = begin; e < end; ++e) {
-      const auto j = static_cast<std::size_t>(operators_.first.columns()[e]);
-      if (j == i)
-        own = operators_.first.values()[e];
-      else
-        sum += operators_.first.values()[e] * u(j);
+      step_ = options_.damping ? bar_step_for<Absent, effects::Damping>(w) : bar_step_for<Absent, Absent>(w);
+    arrays_ = {.rows = &second_,
+               .ends = {EndRow(operators_.first, 0, options_.youngs_modulus),
+                        EndRow(operators_.first, n_ - 1, options_.youngs_modulus)},
+               .displacement = &displacement_[margin_],
+               .velocity = &velocity_[margin_]};
+    if (options_.viscosity) { // c^2 D2 u + b c D D2 v = c^2 D2 (u + b D / c v)
+      arrays_.stressing = &stressing_[margin_];
+      arrays_.delay = options_.viscosity->diffusivity(c_, spacing_) / (c_ * c_);
     }
-    displacement_[margin_ + i] = (sigma / options_.youngs_modulus - sum) / own;
+    if (options_.damping)
+      arrays_.damping = options_.damping->rate;
   }
 
   void move_kernels() {
@@ -296,27 +249,29 @@ private:
     }
     operators_ = options_.operators(places);
     Diagonals moved(operators_.second, c_ * c_);
-    if (Diagonals::margin(moved.half_width()) > margin_)
+    Diagonals moved_first(operators_.first, options_.youngs_modulus);
+    if (Diagonals::margin(std::max(moved.half_width(), moved_first.half_width())) > margin_)
       throw Violation(time_, -1, 0, "the particles have moved so close that a support holds many more of them");
     second_ = std::move(moved);
+    first_ = std::move(moved_first);
+    prepare_rows();
   }
 
   /// Largest eigenvalue of -c^2 D2 with free ends by power iteration from a vector that is largest where neighbours
   /// move against each other, and the step that follows.
   double find_limit() {
-    std::vector<double> x = displacement_;
-    std::vector<double> y(x.size());
+    linear_algebra::AlignedVector x = displacement_;
+    linear_algebra::AlignedVector y(x.size());
     for (std::size_t i = 0; i < n_; ++i)
       x[margin_ + i] = (i % 2 == 0 ? 1 : -1) * (1 + 0.1 * std::sin(0.1 * static_cast<double>(i)));
+    const RowProducts<any_width> product(second_);
     double squared = 0;
     constexpr int rounds = 400; // the ratio of norms settles like 1 / rounds where eigenvalues lie dense
     for (int round = 0; round < rounds; ++round) {
-      std::swap(x, displacement_);
-      set_end(0, 0);
-      set_end(n_ - 1, 0);
-      std::swap(x, displacement_);
-      std::fill(y.begin(), y.end(), 0.0);
-      add_product<false>(second_, &x[margin_], -1, 1, &y[margin_]);
+      x[margin_] = arrays_.ends[0].displacement(0, &x[margin_]);
+      x[margin_ + n_ - 1] = arrays_.ends[1].displacement(0, &x[margin_]);
+      for (std::size_t i = 0; i < n_; i += n_lanes)
+        store(-product(&x[margin_], i), &y[margin_ + i]);
       double norm_x = 0;
       double norm_y = 0;
       for (std::size_t i = 1; i + 1 < n_; ++i) {
@@ -327,8 +282,7 @@ private:
       for (std::size_t i = 0; i < x.size(); ++i)
         x[i] = i > margin_ && i + 1 < margin_ + n_ ? y[i] / std::sqrt(norm_y) : 0;
     }
-    const double delay = options_.viscosity ? options_.viscosity->diffusivity(c_, spacing_) / (c_ * c_) : 0;
-    const double half = (options_.damping ? options_.damping->rate / squared : 0) + delay;
+    const double half = arrays_.damping / squared + arrays_.delay;
     return -half + std::sqrt(half * half + 4 / squared);
   }
 
@@ -337,13 +291,19 @@ private:
   double spacing_;
   double c_;
   LineOperators operators_;
+  Diagonals first_;  ///< E D1
   Diagonals second_; ///< c^2 D2
+  BarArrays arrays_;
+  BarStep step_ = nullptr;
   std::size_t margin_ = 0;
-  std::vector<double> displacement_, velocity_;
-  std::vector<double> stressing_; ///< of artificial viscosity
+  linear_algebra::AlignedVector displacement_, velocity_;
+  linear_algebra::AlignedVector stressing_; ///< of artificial viscosity
+  linear_algebra::AlignedVector weights_;   ///< half of a particle's length, m
   double limit_ = 0;
   double time_ = 0;
   std::int64_t steps_ = 0;
+  double left_stress_ = 0; ///< at the present time
+  double right_stress_ = 0;
   double work_ = 0;
   double most_work_ = 0;
   std::array<double, 4> counters_{};

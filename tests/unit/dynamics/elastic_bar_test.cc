@@ -61,6 +61,72 @@ TEST(ElasticBar, StableStepIsTheReferences) {
   EXPECT_NEAR(ElasticBar(viscous).stable_step(), 0.52, 0.02 * 0.52);
 }
 
+/// Second differences spread over 2 w + 1 columns, first ones over the w columns beside.
+LineOperators wide_rows(std::size_t n, int w) {
+  const auto size = static_cast<std::int64_t>(n);
+  LineOperators rows{linear_algebra::SparseRows(size), linear_algebra::SparseRows(size)};
+  for (std::int64_t i = 0; i < size; ++i) {
+    std::vector<std::int64_t> columns;
+    std::vector<double> first, second;
+    for (std::int64_t j = std::max<std::int64_t>(i - w, 0); j <= std::min<std::int64_t>(i + w, size - 1); ++j) {
+      columns.push_back(j);
+      first.push_back(j == i ? (i == 0 ? -1.0 : 1.0) : 0.1 / static_cast<double>(i - j));
+      second.push_back(j == i ? -1.0 : 0.4 / (w * static_cast<double>((i - j) * (i - j))));
+    }
+    rows.first.append_row(columns, first);
+    rows.second.append_row(columns, second);
+  }
+  return rows;
+}
+
+// The loops are composed for each width and choice of effects; a loop over the formulas of the paper has none of that.
+TEST(ElasticBar, AStepOfAnyWidthAndEffectsIsThatOfPlainLoops) {
+  constexpr double dt = 0.5;
+  for (const int w : {1, 2, 3, 4, 5, 9, 17})
+    for (const std::size_t n : {5U, 8U, 9U, 16U, 17U, 23U, 40U, 67U})
+      for (const int chosen : {0, 1, 2, 3}) {
+        SCOPED_TRACE(testing::Message() << "half width " << w << ", " << n << " particles, effects " << chosen);
+        BarOptions options;
+        for (std::size_t i = 0; i < n; ++i)
+          options.positions.push_back(static_cast<double>(i));
+        options.operators = [&](std::span<const double>) { return wide_rows(n, w); };
+        options.left_stress = [](double t) { return 0.3 * std::sin(t); };
+        options.right_stress = [](double t) { return -std::cos(t); };
+        if (chosen & 1)
+          options.viscosity = effects::LinearViscosity{0.1};
+        if (chosen & 2)
+          options.damping = effects::Damping{0.2};
+        ElasticBar bar(options);
+        const auto rows = wide_rows(n, w);
+        std::vector<double> u(n, 0.0), v(n, 0.0);
+        for (int step = 1; step <= 6; ++step) {
+          bar.step(dt);
+          std::vector<double> x = u, sum(n);
+          for (std::size_t i = 0; i < n && (chosen & 1); ++i)
+            x[i] += 0.1 * v[i];
+          rows.second.multiply(x, sum);
+          const double left = u.front();
+          const double right = u.back();
+          for (std::size_t i = 0; i < n; ++i) {
+            v[i] += dt * (sum[i] - (chosen & 2 ? 0.2 * v[i] : 0));
+            u[i] += dt * v[i];
+          }
+          for (const std::size_t end : {std::size_t{0}, n - 1}) {
+            const double sigma = end == 0 ? 0.3 * std::sin(step * dt) : -std::cos(step * dt);
+            u[end] = 0;
+            rows.first.multiply(u, sum);
+            u[end] = (sigma - sum[end]) / (end == 0 ? -1.0 : 1.0);
+          }
+          v.front() = (u.front() - left) / dt;
+          v.back() = (u.back() - right) / dt;
+        }
+        for (std::size_t i = 0; i < n; ++i) { // rounding of some tens of operations on values of about 1
+          ASSERT_NEAR(bar.displacement()[i], u[i], 1e-13) << i;
+          ASSERT_NEAR(bar.velocity()[i], v[i], 1e-13) << i;
+        }
+      }
+}
+
 TEST(ElasticBar, JustBelowTheLimitIsStableAndJustAboveIsRefused) {
   for (const double h : {1.1, 1.2, 1.5}) {
     ElasticBar a(bar(100, "revised_super_gauss", h));

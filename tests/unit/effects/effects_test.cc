@@ -25,7 +25,15 @@ std::size_t bytes_allocated = 0;
     return memory;
   throw std::bad_alloc();
 }
+[[gnu::noinline]] void *operator new(std::size_t size, std::align_val_t alignment) {
+  bytes_allocated += size;
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void *memory = std::aligned_alloc(a, (size + a - 1) / a * a))
+    return memory;
+  throw std::bad_alloc();
+}
 [[gnu::noinline]] void operator delete(void *memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void *memory, std::align_val_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void *memory, std::size_t) noexcept { std::free(memory); }
 // NOLINTEND
 

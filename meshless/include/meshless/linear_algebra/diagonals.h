@@ -1,13 +1,13 @@
 #pragma once
 
+#include "meshless/linear_algebra/aligned_vector.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace meshless::linear_algebra {
 
-/// A square band matrix stored by diagonals, each padded to whole SIMD vectors: y_i = sum_k d_k[i] x_{i+k}.
+/// A square band matrix stored by diagonals, each padded to whole cache lines: y_i = sum_k d_k[i] x_{i+k}.
 class Diagonals {
 public:
   /// All diagonals between the outermost entries of the matrix, times `factor`.
@@ -29,7 +29,7 @@ private:
   std::size_t n_rows_;
   std::size_t half_width_ = 0;
   std::size_t stride_;
-  std::vector<double> values_;
+  AlignedVector values_;
 };
 
 } // namespace meshless::linear_algebra
