@@ -3,6 +3,7 @@
 #include "comparisons/reports/answers.h"
 #include "comparisons/reports/answers_section.h"
 #include "comparisons/reports/comparison_section.h"
+#include "comparisons/reports/facts_section.h"
 #include "comparisons/reports/figures.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
@@ -86,6 +87,7 @@ Document report_document(const Results &results) {
   append_pareto(document, groups);
   append_rates(document, groups);
   append_ledger(document, results);
+  append_facts(document, groups);
   append_phases(document, groups);
   append_clouds(document, groups);
   append_further_quantities(document, groups);
