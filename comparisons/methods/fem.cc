@@ -65,6 +65,8 @@ public:
                        {"assembly", s.assembly},
                        {"solve", s.solve}};
     record_.quantities = {{"backward_error", solution_.backward_error()}};
+    if (solution_.iterations() > 0)
+      record_.quantities["solver_iterations"] = solution_.iterations();
   }
 
   std::vector<std::string> fields() const override {
@@ -126,8 +128,10 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
   const std::string &element = request.parameters.text("element");
   options.mixed = element == taylor_hood;
   options.degree = options.mixed ? 2 : element.back() - '0';
-  options.solver = request.parameters.text("solver") == "umfpack" ? reference::LinearSolver::umfpack
-                                                                  : reference::LinearSolver::cholesky;
+  const std::string &solver = request.parameters.text("solver");
+  options.solver = solver == "umfpack"     ? reference::LinearSolver::umfpack
+                   : solver == "multigrid" ? reference::LinearSolver::multigrid
+                                           : reference::LinearSolver::cholesky;
   std::vector<std::string> warnings;
   for (const auto &region : request.statement.regions)
     if (!options.mixed && locks(region.material)) {
@@ -153,9 +157,10 @@ Method fem() {
                   "Taylor-Hood with a linear pressure, by UMFPACK, does not lock as nu -> 1/2"},
       {.name = "solver",
        .type = Type::choice,
-       .choices = {"cholesky", "umfpack"},
+       .choices = {"cholesky", "umfpack", "multigrid"},
        .default_value = "cholesky",
-       .meaning = "sparse direct solver: CHOLMOD or UMFPACK"},
+       .meaning = "CHOLMOD, UMFPACK, or geometric multigrid without a matrix (quadrilaterals only; the first for large "
+                  "systems)"},
   };
   method.description.effects = {"elasticity", "body_force", "thermal_expansion"};
   method.description.check = [](const scene::CheckContext &context, scene::Diagnostics &diagnostics) {

@@ -107,7 +107,7 @@ std::vector<MethodSeries> series_of(const Group &group) {
 }
 
 bool is_error_target(std::string_view name) {
-  for (const char *other : {"log10", "slope", "_seed_", "backward_error"})
+  for (const char *other : {"log10", "slope", "_seed_", "backward_error", "iterations"})
     if (name.find(other) != std::string_view::npos)
       return false;
   return true;

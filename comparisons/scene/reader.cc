@@ -112,7 +112,7 @@ std::vector<Declaration> study_declarations() {
        .type = Type::integer,
        .range = {.lower = 1, .upper = 1024},
        .default_value = std::int64_t{1},
-       .meaning = "threads of every method"},
+       .meaning = "threads of every method: BLAS, and the assembly of particle methods in weak form"},
       {.name = "facts",
        .type = Type::boolean,
        .default_value = false,

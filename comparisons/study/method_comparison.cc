@@ -86,6 +86,10 @@ void add_method_facts(const methods::MethodFacts &measured, const problems::Plan
   };
   put(facts, "fact_microseconds_value", microseconds(measured.value_seconds));
   put(facts, "fact_microseconds_gradient", microseconds(measured.gradient_seconds));
+  for (const auto &[name, seconds] : {std::pair{"fact_microseconds_place", measured.value_seconds},
+                                      std::pair{"fact_microseconds_place_gradient", measured.gradient_seconds}})
+    if (seconds && measured.functions_per_point)
+      facts[name] = 1e6 * *seconds * *measured.functions_per_point;
   put(facts, "fact_symmetry_defect", measured.symmetry_defect);
   put(facts, "fact_symmetry_defect_inside", measured.symmetry_defect_inside);
   if (!measured.row_start.empty()) {

@@ -153,7 +153,7 @@ public:
     e.n_points =
         static_cast<double>(elements ? problem_->mesh(level).vertices.size() : problem_->cloud(level).positions.size());
     if (elements)
-      estimate_elements(p.text("element")[1] - '0', e);
+      estimate_elements(p.text("element")[1] - '0', p.has("solver") && p.text("solver") == "multigrid", e);
     else if (p.has("order"))
       estimate_particles(p, e);
     return e;
@@ -168,8 +168,13 @@ public:
   }
 
 private:
-  static void estimate_elements(double degree, Estimate &e) {
+  static void estimate_elements(double degree, bool multigrid, Estimate &e) {
     e.n_dofs = 2 * e.n_points * degree * degree;
+    if (multigrid) {
+      e.bytes = 2e5 + 240 * e.n_dofs;
+      e.seconds = 1e-3 + 1.8e-6 * e.n_dofs;
+      return;
+    }
     const double nonzeros = e.n_dofs * 2 * (2 * degree + 1) * (degree + 1);
     // 8 bytes for each entry of the factor: 7 log2 N a row, and more in large systems (2.6e6 unknowns take 6 GB).
     const double log = std::log2(e.n_dofs + 2);

@@ -84,5 +84,13 @@ BENCHMARK_CAPTURE(cantilever, cholesky, LinearSolver::cholesky)
     ->Args({3, 213})
     ->Args({4, 160})
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cantilever, multigrid, LinearSolver::multigrid)
+    ->Args({2, 320})
+    ->Args({2, 640})
+    ->Args({2, 1280})
+    ->Args({1, 640})
+    ->Args({3, 160})
+    ->Args({4, 160})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cantilever, umfpack, LinearSolver::umfpack)->Args({2, 320})->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluation)->Unit(benchmark::kMillisecond);

@@ -90,11 +90,12 @@ TEST(Commands, explain_names_effects_unknowns_cost_and_keys) {
 TEST(Commands, every_shipped_scene_is_valid) {
   const Folder folder;
   std::vector<std::string> arguments{"check", "--quiet"};
-  for (const auto &entry :
-       fs::recursive_directory_iterator(fs::path(PETROV_SOURCE_DIR) / "comparisons" / "benchmarks" / "cantilever"))
-    if (entry.path().extension() == ".toml" && entry.path().filename() != "published.toml")
-      arguments.push_back(entry.path().string());
-  ASSERT_GT(arguments.size(), 10u);
+  for (const char *folder_name : {"benchmarks", "examples"})
+    for (const auto &entry :
+         fs::recursive_directory_iterator(fs::path(PETROV_SOURCE_DIR) / "comparisons" / folder_name))
+      if (entry.path().extension() == ".toml" && entry.path().filename() != "published.toml")
+        arguments.push_back(entry.path().string());
+  ASSERT_GT(arguments.size(), 60u);
   const auto ended = run_here(arguments, folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(static_cast<std::size_t>(std::count(ended.out.begin(), ended.out.end(), '\n')), arguments.size() - 2);

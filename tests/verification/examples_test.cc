@@ -56,6 +56,18 @@ TEST(Examples, slender_elliptic_hole) {
 }
 TEST(Examples, thick_cylinder) { expect_figure("thick_cylinder/scene.toml", "hoop_stress", 1e-3, 2e-2); }
 
+/// Two layers against Lame's solution: the stress jumps at the interface, and both methods converge in it nevertheless.
+/// One at the interface that shared its strain between the layers would be wrong in stress by a third there.
+TEST(Examples, layered_cylinder) {
+  expect_figure("thick_cylinder/layered.toml", "hoop_stress", 1e-3, 2e-2);
+  const auto cells = run(read_example("thick_cylinder/layered.toml"));
+  for (const auto *label : {"weak1 order=2", "weak1 order=3", "fem element=Q2", "fem element=Q3"}) {
+    const double ratio = find(cells, label, "mesh").errors.at("stress_l2_relative") /
+                         find(cells, label, "mesh/2").errors.at("stress_l2_relative");
+    EXPECT_GT(std::log2(ratio), 1.8) << label;
+  }
+}
+
 /// Two materials against finer finite elements; what the bolts hold is what the lip carries.
 TEST(Examples, bracket) {
   for (const auto &cell : run(read_example("bracket/scene.toml"))) {

@@ -224,7 +224,8 @@ scene::BenchmarkDescription description() {
        .type = Type::choice,
        .choices = {"shipped", "generated"},
        .default_value = "shipped",
-       .meaning = "the files in meshes/ (188, 686, 2600 particles; others by the same generator), or a fresh cloud"},
+       .meaning =
+           "the files in meshes/ (188, 686, 2600, 5200 particles; others by the same generator), or a fresh cloud"},
       {.name = "cloud_seed",
        .type = Type::integer,
        .range = {.lower = 0},

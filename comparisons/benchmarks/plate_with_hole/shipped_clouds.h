@@ -8,7 +8,7 @@
 namespace comparisons::benchmarks::plate_with_hole {
 
 /// Clouds that stand as files in meshes/.
-inline constexpr std::array<std::size_t, 3> shipped_sizes{188, 686, 2600};
+inline constexpr std::array<std::size_t, 4> shipped_sizes{188, 686, 2600, 5200};
 /// Seed of the shipped clouds.
 inline constexpr std::uint64_t shipped_seed = 0;
 

@@ -14,7 +14,7 @@
 
   // --- cells, as reports/answers.cc sees them
 
-  const isTarget = (name) => !/log10|slope|_seed_|backward_error/.test(name);
+  const isTarget = (name) => !/log10|slope|_seed_|backward_error|iterations/.test(name);
   const errorOf = (cell, name) => {
     if (cell.status !== 'ok') return null;
     const value = cell.errors[name] ?? cell.quantities[name];

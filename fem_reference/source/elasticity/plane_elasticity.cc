@@ -1,6 +1,7 @@
 #include "fem_reference/elasticity/plane_elasticity.h"
 
 #include "../linear_algebra/direct_solvers.h"
+#include "../multigrid/multigrid.h"
 #include "../stopwatch.h"
 #include "mixed.h"
 #include "solution.h"
@@ -79,9 +80,13 @@ void correct(linear_algebra::DirectSolver &solver, PlaneSolution::Implementation
     if (prescribed[i] == 0)
       displacement[i] += correction[i];
 }
-} // namespace
 
-namespace {
+void check_finite(std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
+}
+
 void solve_mixed_system(const PlaneProblem &problem, PlaneSolution::Implementation &solution, Seconds &seconds) {
   Stopwatch stopwatch;
   solution.essential = essential_data(problem, solution.discretisation);
@@ -94,9 +99,49 @@ void solve_mixed_system(const PlaneProblem &problem, PlaneSolution::Implementati
   solution.nonzeros = result.nonzeros;
   solution.backward_error = result.backward_error;
   impose(solution.essential, solution.values);
-  for (std::size_t i = 0; i < solution.values.size(); ++i)
-    if (!std::isfinite(solution.values[i]))
-      throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
+  check_finite(solution.values);
+  seconds.solve = stopwatch.lap();
+}
+
+/// The residual of the free unknowns, by cells.
+std::vector<double> free_residual(const PlaneSolution::Implementation &solution) {
+  auto residual = internal_forces(solution.discretisation, solution.materials, solution.values).forces;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] = solution.essential.prescribed[i] != 0 ? 0 : solution.loads.nodal[i] - residual[i];
+  return residual;
+}
+
+/// Corrections of the prescribed displacements, continued by zero: the first is the solution. What it leaves is the
+/// rounding of its recurrence, and the second, with the residual computed anew, ends on the first's level.
+void solve_without_matrix(const PlaneProblem &problem, const Options &options, PlaneSolution::Implementation &solution,
+                          Seconds &seconds) {
+  Stopwatch stopwatch;
+  solution.essential = essential_data(problem, solution.discretisation);
+  solution.loads = loads(problem, solution.discretisation);
+  solution.thermal_strain = problem.thermal_strain;
+  solution.values = solution.essential.values;
+  multigrid::Multigrid solver(solution.discretisation, solution.materials, solution.essential.prescribed);
+  seconds.assembly = stopwatch.lap();
+
+  constexpr double tolerance = 1e-12;
+  auto residual = free_residual(solution);
+  const double first = norm(residual);
+  std::vector<double> correction(residual.size());
+  for (int step = 0; step <= options.corrections && norm(residual) > tolerance * first; ++step) {
+    const double left = norm(residual) / first;
+    solution.iterations += solver.solve(residual, std::min(tolerance / left, .1), correction).iterations;
+    for (std::size_t i = 0; i < correction.size(); ++i)
+      solution.values[i] += correction[i];
+    residual = free_residual(solution);
+  }
+  check_finite(solution.values);
+  solution.n_dofs = solution.values.size();
+  if (first > 0)
+    solution.relative_residual = norm(residual) / first;
+  const double size_of_terms =
+      solver.largest_diagonal() * maximum_norm(solution.values) + maximum_norm(solution.loads.nodal);
+  if (size_of_terms > 0)
+    solution.backward_error = maximum_norm(residual) / size_of_terms; // from above: |K| is at least its diagonal
   seconds.solve = stopwatch.lap();
 }
 } // namespace
@@ -119,6 +164,11 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
     solution->seconds = seconds;
     return PlaneSolution(std::move(solution));
   }
+  if (options.solver == LinearSolver::multigrid) {
+    solve_without_matrix(problem, options, *solution, seconds);
+    solution->seconds = seconds;
+    return PlaneSolution(std::move(solution));
+  }
   Stopwatch stopwatch;
   linear_algebra::BlockMatrix matrix(discretisation.n_nodes(), discretisation.cell_start, discretisation.cell_nodes);
   seconds.degrees_of_freedom += stopwatch.lap();
@@ -136,9 +186,7 @@ PlaneSolution solve(const PlaneProblem &problem, const Options &options) {
   impose(solution->essential, solution->values);
   for (int step = 0; step < options.corrections; ++step)
     correct(*solver, *solution);
-  for (std::size_t i = 0; i < solution->values.size(); ++i)
-    if (!std::isfinite(solution->values[i]))
-      throw SolveFailure(fmt::format("the solution is not finite at unknown {}", i));
+  check_finite(solution->values);
   measure_residual(matrix, right_hand_side, *solution);
   solution->n_dofs = solution->values.size();
   solution->nonzeros = 2 * matrix.n_nonzeros_lower() - static_cast<std::size_t>(matrix.n_rows());

@@ -44,6 +44,7 @@ public:
   ScalarField thermal_strain; ///< empty: none
   EssentialData essential;
   std::size_t nonzeros = 0;
+  int iterations = 0;
   Seconds seconds;
   double relative_residual = 0;
   double backward_error = 0;

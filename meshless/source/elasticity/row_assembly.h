@@ -1,9 +1,15 @@
 #pragma once
 
+#include "../parallel/ordered_chunks.h"
+
+#include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/row_sample.h"
 #include "meshless/linear_algebra/sparse_lu.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
+#include "meshless/parallel/threads.h"
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -21,17 +27,63 @@ struct SolvedRows {
   double reciprocal_condition = 0;
 };
 
+/// Assembles all rows, by as many threads as are set; the rows are the same for any number of them. `assembler.seconds`
+/// grow by the time that passes, shared between the phases as the threads spent theirs.
+/// @param another () -> Assembler, one for each thread more
+template <typename Assembler, typename Another>
+void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
+                   linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+  if (parallel::threads() == 1) {
+    for (std::size_t i = 0; i < n_particles; ++i)
+      assembler.assemble(i, matrix, right_hand_side);
+    return;
+  }
+  struct Rows {
+    linear_algebra::SparseRows matrix;
+    std::vector<double> right_hand_side;
+  };
+  constexpr std::size_t chunk = 32; // a millisecond or so
+  linear_algebra::Stopwatch watch;
+  tbb::enumerable_thread_specific<Assembler> assemblers(another);
+  parallel::in_ordered_chunks<Rows>(
+      n_particles, chunk, parallel::threads(),
+      [&](std::size_t begin, std::size_t end) {
+        auto &own = assemblers.local();
+        Rows rows{linear_algebra::SparseRows(matrix.n_columns()), {}};
+        for (std::size_t i = begin; i < end; ++i)
+          own.assemble(i, rows.matrix, rows.right_hand_side);
+        return rows;
+      },
+      [&](const Rows &rows) {
+        matrix.append_rows(rows.matrix);
+        right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
+      });
+  const double wall = watch.lap();
+  SolveSeconds spent;
+  for (const auto &own : assemblers) {
+    spent.neighbours += own.seconds.neighbours;
+    spent.basis += own.seconds.basis;
+    spent.assembly += own.seconds.assembly;
+  }
+  const double all = spent.neighbours + spent.basis + spent.assembly;
+  const double share = all > 0 ? wall / all : 0;
+  assembler.seconds.neighbours += share * spent.neighbours;
+  assembler.seconds.basis += share * spent.basis;
+  assembler.seconds.assembly += share * spent.assembly;
+}
+
 /// Assembles all rows, divides each by its largest entry, and solves.
 /// @tparam Assembler has `seconds` and assemble(particle, SparseRows &, std::vector<double> &)
+/// @param another () -> Assembler, for other threads
 /// @param per_particle rows of a particle
 /// @throws linear_algebra::SolveError, or what the assembler throws
-template <typename Assembler>
-SolvedRows assemble_and_solve(Assembler &assembler, std::size_t n_particles, std::size_t per_particle) {
+template <typename Assembler, typename Another>
+SolvedRows assemble_and_solve(Assembler &assembler, const Another &another, std::size_t n_particles,
+                              std::size_t per_particle) {
   linear_algebra::SparseRows matrix(static_cast<std::int64_t>(per_particle * n_particles));
   std::vector<double> right_hand_side;
   right_hand_side.reserve(per_particle * n_particles);
-  for (std::size_t i = 0; i < n_particles; ++i)
-    assembler.assemble(i, matrix, right_hand_side);
+  assemble_rows(assembler, another, n_particles, matrix, right_hand_side);
   linear_algebra::Stopwatch watch;
   const auto divisors = matrix.equilibrate_rows();
   for (std::size_t row = 0; row < divisors.size(); ++row)

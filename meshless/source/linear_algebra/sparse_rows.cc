@@ -22,6 +22,14 @@ void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<con
   offsets_.push_back(static_cast<std::int64_t>(columns_.size()));
 }
 
+void SparseRows::append_rows(const SparseRows &rows) {
+  const auto first = offsets_.back();
+  columns_.insert(columns_.end(), rows.columns_.begin(), rows.columns_.end());
+  values_.insert(values_.end(), rows.values_.begin(), rows.values_.end());
+  for (std::size_t row = 1; row < rows.offsets_.size(); ++row)
+    offsets_.push_back(first + rows.offsets_[row]);
+}
+
 std::vector<double> SparseRows::equilibrate_rows() {
   std::vector<double> divisors(static_cast<std::size_t>(n_rows()));
   for (std::size_t row = 0; row < divisors.size(); ++row) {

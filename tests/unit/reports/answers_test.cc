@@ -164,7 +164,7 @@ TEST(Answers, on_a_line_the_spacing_is_one_over_the_intervals) {
 TEST(Answers, which_numbers_are_errors) {
   for (const char *name : {u, "stress_l2_relative", "stress_concentration_factor_error", "l2_sum"})
     EXPECT_TRUE(is_error_target(name)) << name;
-  for (const char *name : {"displacement_log10_E", "l2_slope", "l2_seed_3", "backward_error"})
+  for (const char *name : {"displacement_log10_E", "l2_slope", "l2_seed_3", "backward_error", "solver_iterations"})
     EXPECT_FALSE(is_error_target(name)) << name;
   Results results = power_laws();
   for (Cell &one : results.cells) {
@@ -235,6 +235,11 @@ TEST(NotComparable, debug_load_and_threads_are_stamped) {
   EXPECT_EQ(reasons_not_comparable(program, machine, {1}, 100).size(), 1u);
   EXPECT_TRUE(reasons_not_comparable(program, machine, {1}, 10).empty()) << "too short for a load average";
   EXPECT_TRUE(reasons_not_comparable(program, machine, {2}, 100).empty()) << "two threads of our own";
+  machine.competing_cores = 0.05;
+  EXPECT_TRUE(reasons_not_comparable(program, machine, {1}, 100).empty()) << "measured: load averages are of the past";
+  machine.competing_cores = 0.7;
+  EXPECT_EQ(reasons_not_comparable(program, machine, {1}, 100).size(), 1u);
+  machine.competing_cores.reset();
   machine.load = 1.9;
   EXPECT_EQ(reasons_not_comparable(program, machine, {2}, 100).size(), 1u);
   program.build_type = "Debug";

@@ -126,7 +126,8 @@ inline Results results() {
   Results all;
   all.program = {"petrov", "0.1.0", "0123abc", "Release", "-O3 -DNDEBUG"};
   all.machine = {
-      "Some CPU", 2, 24000000000, 0.25, 1.125, "OpenBLAS 0.3.21", 1, 4, {{"deal.II", "9.4.1"}, {"Eigen", "3.4.0"}}};
+      "Some CPU", 2, 24000000000, 0.25, 1.125, "OpenBLAS 0.3.21", 1, 4, {{"deal.II", "9.4.1"}, {"Eigen", "3.4.0"}},
+      0.125};
   all.scene = {{"title", "A beam"},
                {"benchmark", "cantilever"},
                {"name", "scene"},

@@ -61,7 +61,8 @@ struct PlaneProblem {
 
 enum class LinearSolver {
   cholesky, ///< CHOLMOD, supernodal L L^T
-  umfpack   ///< UMFPACK, L U of the full matrix
+  umfpack,  ///< UMFPACK, L U of the full matrix
+  multigrid ///< conjugate gradients with geometric multigrid, without a matrix; quadrilaterals only
 };
 
 struct Options {
@@ -96,15 +97,18 @@ public:
   std::size_t n_cells() const;
   /// Number of unknowns, prescribed ones included.
   std::size_t n_dofs() const;
-  /// Entries of the full symmetric matrix, n_dofs() rows.
+  /// Entries of the full symmetric matrix, n_dofs() rows; 0 if none was made.
   std::size_t nonzeros() const;
   const Seconds &seconds() const;
 
-  /// ||K u - f||_2 / ||f||_2 after elimination of the essential data.
+  /// ||K u - f||_2 / ||f||_2 after elimination of the essential data. Of multigrid, whose corrections start from the
+  /// prescribed displacements continued by zero, over the norm of their residual.
   double relative_residual() const;
   /// Normwise backward error ||K u - f|| / (||K|| ||u|| + ||f||) in the maximum norm: about the
-  /// machine precision when the direct solver did all it could.
+  /// machine precision when the direct solver did all it could. Of multigrid an upper bound of it.
   double backward_error() const;
+  /// Of an iterative solver, all corrections together; 0 of a direct one.
+  int iterations() const;
   /// Nodal components for which boundary ids prescribe different displacements.
   std::size_t contradicted_values() const;
 

@@ -18,6 +18,9 @@ public:
   /// @param columns increasing
   void append_row(std::span<const std::int64_t> columns, std::span<const double> values);
 
+  /// Appends the rows of a matrix with as many columns.
+  void append_rows(const SparseRows &rows);
+
   /// Divides every row by its largest absolute entry and returns the divisors: the weak and the
   /// strong form mix rows of stiffness, traction and penalty size.
   /// @throws std::runtime_error naming the row if one is zero or not finite

@@ -29,10 +29,13 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   linear_algebra::Stopwatch watch;
   const std::size_t n = particles->size();
   const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
-  Assembler assembler(problem, *surroundings, *particles, *displacement_basis, *pressure_basis, parameters);
+  const auto make = [&] {
+    return Assembler(problem, *surroundings, *particles, *displacement_basis, *pressure_basis, parameters);
+  };
+  auto assembler = make();
   assembler.seconds.neighbours = watch.lap();
 
-  const auto solved = assemble_and_solve(assembler, n, 3);
+  const auto solved = assemble_and_solve(assembler, make, n, 3);
 
   std::vector<double> displacement(2 * n);
   PressureField pressure{std::move(pressure_basis), std::vector<double>(n)};

@@ -42,12 +42,13 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   linear_algebra::Stopwatch watch;
   const std::size_t n = particles->size();
   const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
-  Assembler assembler(problem, *surroundings, *particles, *basis, parameters);
+  const auto make = [&] { return Assembler(problem, *surroundings, *particles, *basis, parameters); };
+  auto assembler = make();
   assembler.seconds.neighbours = watch.lap();
   require_basis_at_particles(*surroundings, *particles, *basis);
   assembler.seconds.basis += watch.lap();
 
-  auto solved = assemble_and_solve(assembler, n, 2);
+  auto solved = assemble_and_solve(assembler, make, n, 2);
   ParticleSolution solution(std::move(particles), std::move(basis), parameters.derivatives, surroundings,
                             std::move(solved.solution));
   solution.set_thermal_strain(problem.thermal_strain);

@@ -1,0 +1,26 @@
+// A quarter of a ring of two layers: radii 1 to 1.5 and 1.5 to 2.
+lc = 0.2;
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0, lc / 2};
+Point(3) = {1.5, 0, 0, lc / 2};
+Point(4) = {2, 0, 0, lc};
+Point(5) = {0, 2, 0, lc};
+Point(6) = {0, 1.5, 0, lc / 2};
+Point(7) = {0, 1, 0, lc / 2};
+Line(1) = {2, 3};
+Line(2) = {3, 4};
+Circle(3) = {4, 1, 5};
+Line(4) = {5, 6};
+Line(5) = {6, 7};
+Circle(6) = {7, 1, 2};
+Circle(7) = {3, 1, 6};
+Curve Loop(1) = {1, 7, 5, 6};
+Curve Loop(2) = {2, 3, 4, -7};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Curve("x_axis") = {1, 2};
+Physical Curve("outer") = {3};
+Physical Curve("y_axis") = {4, 5};
+Physical Curve("inner") = {6};
+Physical Surface("liner") = {1};
+Physical Surface("jacket") = {2};
