@@ -52,7 +52,7 @@ const std::vector<PaperRow> &paper_rows() {
        {{"fact_rows", "rows"},
         {"fact_nonzeros_per_row", "nonzeros a row"},
         {"fact_half_bandwidth", "half-bandwidth"},
-        {"fact_symmetry_defect", "symmetry defect |K-K'|/|K|"},
+        {"fact_symmetry_defect", "symmetry defect"},
         {"fact_symmetry_defect_inside", "the same, inner particles"}}},
       {"Assembly of equations",
        "Not required",
@@ -132,7 +132,8 @@ void append_facts(Document &document, const std::vector<Group> &groups) {
         document.push_back(Heading{2, "SSPH and finite elements, measured (Zhang & Batra 2008, Table 7)"});
         document.push_back(Paragraph{
             "The paper compares in words; the figures beside them are of this run. Half-bandwidths are those of the "
-            "Cuthill-McKee order. The shape functions of elements are evaluated as at arbitrary places, without the "
+            "Cuthill-McKee order; the symmetry defect is |K - K^T| / |K|. The shape functions of elements are "
+            "evaluated as at arbitrary places, without the "
             "table that their assembly has. The stress jumps across the inner edges of the mesh, for all methods at "
             "the "
             "same places. The critical step is that of central differences with lumped mass, spacing the root of the "
