@@ -36,6 +36,10 @@ ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared pre
                      {"solve", s.solve}};
   record_.quantities = {{"backward_error", solution_.backward_error},
                         {"reciprocal_condition", solution_.reciprocal_condition}};
+  if (solution_.iterations > 0)
+    record_.quantities["solver_iterations"] = solution_.iterations;
+  if (solution_.fell_back)
+    record_.warnings.push_back("the iteration for the linear system did not converge; solved by sparse LU");
   if (prepared_.n_enlarged > 0) {
     record_.quantities["n_enlarged"] = static_cast<double>(prepared_.n_enlarged);
     record_.quantities["largest_enlargement"] = prepared_.largest_factor;

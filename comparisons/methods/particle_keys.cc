@@ -100,12 +100,20 @@ std::vector<Declaration> basis_declarations(Form form) {
   };
 }
 
-Declaration solver_key() {
+Declaration solver_key(Form form) {
+  if (form == Form::mixed)
+    return {.name = "solver",
+            .type = Type::choice,
+            .choices = {"umfpack"},
+            .default_value = "umfpack",
+            .meaning = "linear solver: sparse LU"};
   return {.name = "solver",
           .type = Type::choice,
-          .choices = {"umfpack"},
-          .default_value = "umfpack",
-          .meaning = "linear solver"};
+          .choices = {"automatic", "umfpack", "bicgstab"},
+          .default_value = "automatic",
+          .meaning =
+              "linear solver: sparse LU; BiCGSTAB with incomplete factors, or sparse LU if it does not converge; "
+              "automatic: this from 1000 unknowns up"};
 }
 
 Declaration test_function_key(std::vector<std::string> names, const char *meaning) {
@@ -245,7 +253,7 @@ std::vector<Declaration> particle_keys(Form form) {
              : form == Form::mixed ? mixed_declarations()
                                    : weak_declarations();
   keys.insert(keys.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
-  keys.push_back(solver_key());
+  keys.push_back(solver_key(form));
   return keys;
 }
 

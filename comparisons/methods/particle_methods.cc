@@ -22,6 +22,16 @@ elasticity::weak_form::Subdomains subdomains_of(const SolveRequest &request, con
                                                            : elasticity::weak_form::Subdomains::whole;
 }
 
+meshless::linear_algebra::SystemSolver solver_of(const SolveRequest &request) {
+  using meshless::linear_algebra::SystemSolver;
+  if (!request.parameters.has("solver")) // not a key of every benchmark
+    return SystemSolver::automatic;
+  const auto &name = request.parameters.text("solver");
+  return name == "umfpack"    ? SystemSolver::direct
+         : name == "bicgstab" ? SystemSolver::iterative
+                              : SystemSolver::automatic;
+}
+
 elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, Form form, const Prepared &p) {
   const auto &parameters = request.parameters;
   elasticity::weak_form::Parameters weak;
@@ -37,6 +47,7 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
   weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
   weak.penalty = parameters.real("penalty");
   weak.characteristic_length = request.statement.characteristic_length;
+  weak.solver = solver_of(request);
   return weak;
 }
 
@@ -79,7 +90,7 @@ std::vector<std::string> forewarnings(const SolveRequest &request, Form form, bo
 elasticity::ParticleSolution solve_form(const SolveRequest &request, Form form, const Prepared &p) {
   switch (form) {
   case Form::strong:
-    return elasticity::strong_form::solve(p.problem, p.particles, p.basis, corner_rules(request));
+    return elasticity::strong_form::solve(p.problem, p.particles, p.basis, corner_rules(request), solver_of(request));
   case Form::mixed:
     return elasticity::mixed_form::solve(p.problem, p.particles, p.basis, pressure_basis(request, p),
                                          mixed_parameters(request, p));

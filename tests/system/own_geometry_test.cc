@@ -85,7 +85,7 @@ TEST(OwnGeometry, every_example_is_valid) {
         if (entry.path().extension() == ".toml")
           arguments.push_back(entry.path().string());
     }
-  ASSERT_EQ(arguments.size(), 1u + 10u);
+  ASSERT_EQ(arguments.size(), 1u + 11u);
   const auto ended = run_here(arguments, folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }

@@ -12,6 +12,16 @@ ParticleSolution::ParticleSolution(std::shared_ptr<const cloud::Particles<2>> pa
     : particles_(std::move(particles)), basis_(std::move(basis)), rule_(rule), surroundings_(std::move(surroundings)),
       coefficients_(std::move(coefficients)), search_(*particles_, basis_->support()) {}
 
+void ParticleSolution::set_figures(const SolveSeconds &spent, std::int64_t entries,
+                                   const linear_algebra::SystemSolution &system) {
+  seconds = spent;
+  nonzeros = entries;
+  backward_error = system.backward_error;
+  reciprocal_condition = system.reciprocal_condition;
+  iterations = system.iterations;
+  fell_back = system.fell_back;
+}
+
 void ParticleSolution::set_pressure(PressureField pressure) {
   if (pressure.coefficients.size() != particles_->size())
     throw std::invalid_argument("as many coefficients of the pressure as particles are needed");

@@ -4,9 +4,9 @@
 
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/row_sample.h"
-#include "meshless/linear_algebra/sparse_lu.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
+#include "meshless/linear_algebra/system_solver.h"
 #include "meshless/parallel/threads.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -21,10 +21,8 @@ namespace meshless::elasticity {
 
 /// A system of the rows of all particles, solved.
 struct SolvedRows {
-  std::vector<double> solution;
+  linear_algebra::SystemSolution system;
   std::int64_t nonzeros = 0;
-  double backward_error = 0;
-  double reciprocal_condition = 0;
 };
 
 /// Assembles all rows, by as many threads as are set; the rows are the same for any number of them. `assembler.seconds`
@@ -79,7 +77,7 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
 /// @throws linear_algebra::SolveError, or what the assembler throws
 template <typename Assembler, typename Another>
 SolvedRows assemble_and_solve(Assembler &assembler, const Another &another, std::size_t n_particles,
-                              std::size_t per_particle) {
+                              std::size_t per_particle, linear_algebra::SystemSolver solver) {
   linear_algebra::SparseRows matrix(static_cast<std::int64_t>(per_particle * n_particles));
   std::vector<double> right_hand_side;
   right_hand_side.reserve(per_particle * n_particles);
@@ -89,10 +87,9 @@ SolvedRows assemble_and_solve(Assembler &assembler, const Another &another, std:
   for (std::size_t row = 0; row < divisors.size(); ++row)
     right_hand_side[row] /= divisors[row];
   assembler.seconds.assembly += watch.lap();
-  auto lu = linear_algebra::solve_lu(matrix, right_hand_side);
+  auto system = linear_algebra::solve_system(matrix, right_hand_side, solver, per_particle);
   assembler.seconds.solve = watch.lap();
-  const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
-  return {std::move(lu.solution), matrix.nonzeros(), backward, lu.reciprocal_condition};
+  return {std::move(system), matrix.nonzeros()};
 }
 
 /// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.

@@ -4,6 +4,7 @@
 #include "meshless/basis/shape_functions.h"
 #include "meshless/cloud/candidate_search.h"
 #include "meshless/elasticity/surroundings.h"
+#include "meshless/linear_algebra/system_solver.h"
 
 #include <memory>
 #include <optional>
@@ -62,11 +63,16 @@ public:
   const Surroundings &surroundings() const { return *surroundings_; }
   std::span<const double> coefficients() const { return coefficients_; }
 
+  /// Takes over what is known of the solve.
+  void set_figures(const SolveSeconds &spent, std::int64_t entries, const linear_algebra::SystemSolution &system);
+
   // Figures of the solve.
   SolveSeconds seconds;
   std::int64_t nonzeros = 0;
   double backward_error = 0;
   double reciprocal_condition = 0;
+  int iterations = 0;     ///< of the linear solver; 0: sparse LU
+  bool fell_back = false; ///< to sparse LU
 
 private:
   using Visitor = std::function<void(const basis::GroupedEvaluation<2>::Group &, std::size_t region,

@@ -35,23 +35,20 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   auto assembler = make();
   assembler.seconds.neighbours = watch.lap();
 
-  const auto solved = assemble_and_solve(assembler, make, n, 3);
+  const auto solved = assemble_and_solve(assembler, make, n, 3, linear_algebra::SystemSolver::direct);
 
   std::vector<double> displacement(2 * n);
   PressureField pressure{std::move(pressure_basis), std::vector<double>(n)};
   for (std::size_t i = 0; i < n; ++i) {
-    displacement[2 * i] = solved.solution[3 * i];
-    displacement[2 * i + 1] = solved.solution[3 * i + 1];
+    displacement[2 * i] = solved.system.solution[3 * i];
+    displacement[2 * i + 1] = solved.system.solution[3 * i + 1];
     const double mu = surroundings->material(static_cast<std::size_t>(particles->region(i))).shear();
-    pressure.coefficients[i] = mu * solved.solution[3 * i + 2];
+    pressure.coefficients[i] = mu * solved.system.solution[3 * i + 2];
   }
   ParticleSolution solution(std::move(particles), std::move(displacement_basis), DerivativeRule::direct, surroundings,
                             std::move(displacement));
   solution.set_pressure(std::move(pressure));
-  solution.seconds = assembler.seconds;
-  solution.nonzeros = solved.nonzeros;
-  solution.backward_error = solved.backward_error;
-  solution.reciprocal_condition = solved.reciprocal_condition;
+  solution.set_figures(assembler.seconds, solved.nonzeros, solved.system);
   return solution;
 }
 

@@ -2,9 +2,9 @@
 
 #include "../equations.h"
 
-#include "meshless/linear_algebra/sparse_lu.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
+#include "meshless/linear_algebra/system_solver.h"
 
 #include <fmt/format.h>
 
@@ -334,7 +334,7 @@ void add_rows(const PlaneProblem &problem, const Surroundings &surroundings, con
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
-                       const std::vector<CornerRule> &corner_rules) {
+                       const std::vector<CornerRule> &corner_rules, linear_algebra::SystemSolver solver) {
   problem.check();
   problem.require_inside(*particles);
   SolveSeconds seconds;
@@ -356,17 +356,16 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   for (std::size_t row = 0; row < divisors.size(); ++row)
     right_hand_side[row] /= divisors[row];
   seconds.assembly += watch.lap();
-  auto lu = linear_algebra::solve_lu(matrix, right_hand_side);
+  // Of order 4 the iteration does not converge on irregular particles.
+  if (solver == linear_algebra::SystemSolver::automatic && basis->order() > 3)
+    solver = linear_algebra::SystemSolver::direct;
+  auto system = linear_algebra::solve_system(matrix, right_hand_side, solver);
   seconds.solve = watch.lap();
 
-  const double backward = linear_algebra::backward_error(matrix, lu.solution, right_hand_side);
   ParticleSolution solution(std::move(particles), std::move(basis), DerivativeRule::direct, surroundings,
-                            std::move(lu.solution));
+                            std::move(system.solution));
   solution.set_thermal_strain(problem.thermal_strain);
-  solution.seconds = seconds;
-  solution.nonzeros = matrix.nonzeros();
-  solution.backward_error = backward;
-  solution.reciprocal_condition = lu.reciprocal_condition;
+  solution.set_figures(seconds, matrix.nonzeros(), system);
   return solution;
 }
 

@@ -48,14 +48,11 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   require_basis_at_particles(*surroundings, *particles, *basis);
   assembler.seconds.basis += watch.lap();
 
-  auto solved = assemble_and_solve(assembler, make, n, 2);
+  auto solved = assemble_and_solve(assembler, make, n, 2, parameters.solver);
   ParticleSolution solution(std::move(particles), std::move(basis), parameters.derivatives, surroundings,
-                            std::move(solved.solution));
+                            std::move(solved.system.solution));
   solution.set_thermal_strain(problem.thermal_strain);
-  solution.seconds = assembler.seconds;
-  solution.nonzeros = solved.nonzeros;
-  solution.backward_error = solved.backward_error;
-  solution.reciprocal_condition = solved.reciprocal_condition;
+  solution.set_figures(assembler.seconds, solved.nonzeros, solved.system);
   return solution;
 }
 

@@ -5,6 +5,7 @@
 #include "meshless/elasticity/plane_problem.h"
 #include "meshless/elasticity/row_sample.h"
 #include "meshless/kernels/kernel_table.h"
+#include "meshless/linear_algebra/system_solver.h"
 
 #include <memory>
 #include <optional>
@@ -53,6 +54,7 @@ struct Parameters {
   double penalty = 1e5;
   /// L in alpha = penalty E0 / L, m.
   double characteristic_length = 1;
+  linear_algebra::SystemSolver solver = linear_algebra::SystemSolver::automatic;
 };
 
 /// Solves the problem by the weak form (3.19) on the local subdomains of all particles:
@@ -67,7 +69,7 @@ struct Parameters {
 /// interface the displacement of the softer region a follows that of the other, b (see Interfaces): rows of a get
 ///   alpha int (u_a - u_b) W - int sigma_a n_a W, those of b - int sigma_a n_b W.
 ///
-/// Rows are divided by their largest entry before the sparse LU.
+/// Rows are divided by their largest entry before the system is solved.
 ///
 /// @throws basis::SingularMomentMatrix if the basis does not exist at a particle or quadrature
 ///   point; linear_algebra::SolveError; std::invalid_argument for an ill-posed problem

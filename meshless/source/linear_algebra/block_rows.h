@@ -1,0 +1,33 @@
+#pragma once
+
+#include "meshless/linear_algebra/sparse_rows.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meshless::linear_algebra {
+
+/// Compressed rows of 2 x 2 blocks (a11, a12, a21, a22), in an order of their own.
+struct BlockRows {
+  using Index = std::uint32_t;
+  using Block = std::array<double, 4>;
+
+  /// Row and column I of the given matrix become row and column position[I].
+  BlockRows(const SparseRows &matrix, std::span<const Index> order);
+
+  std::size_t n_rows() const { return start.size() - 1; }
+  /// y = A x
+  void multiply(std::span<const double> x, std::span<double> y) const;
+
+  std::vector<std::size_t> start;
+  std::vector<Index> columns;
+  std::vector<Block> blocks;
+};
+
+/// Reverse Cuthill-McKee: order[k] is the particle at place k. Neighbours are near each other, which keeps what an
+/// incomplete factorisation leaves out small, and the caches full.
+std::vector<BlockRows::Index> reverse_cuthill_mckee(const SparseRows &matrix);
+
+} // namespace meshless::linear_algebra

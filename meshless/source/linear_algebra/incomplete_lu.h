@@ -1,0 +1,42 @@
+#pragma once
+
+#include "block_rows.h"
+
+namespace meshless::linear_algebra {
+
+/// A ~ L U by blocks without fill: the pattern is that of A less blocks smaller than `drop` of the largest of their
+/// row. L has a unit diagonal. In single precision: it is a preconditioner, and half the bytes are half the time.
+class IncompleteLu {
+public:
+  IncompleteLu(const BlockRows &matrix, double drop);
+
+  /// False if a pivot block is singular or not finite; the object is then of no use.
+  bool regular() const { return regular_; }
+  double pivot_ratio() const { return pivot_ratio_; }
+  /// x = (L U)^-1 b; both may be the same.
+  void solve(std::span<const double> b, std::span<double> x) const;
+
+private:
+  using Index = BlockRows::Index;
+  using SingleBlock = std::array<float, 4>;
+  struct Triangle {
+    std::vector<std::size_t> start{0};
+    std::vector<Index> columns;
+    std::vector<SingleBlock> blocks;
+
+    void append(Index column, const BlockRows::Block &block);
+    void subtract(std::size_t row, std::span<const double> x, double &sum_1, double &sum_2) const;
+  };
+
+  void set_pivot(std::size_t row, const BlockRows::Block &pivot);
+
+  Triangle lower_;
+  Triangle upper_;
+  std::vector<SingleBlock> inverse_pivots_;
+  bool regular_ = true;
+  double pivot_ratio_ = 0;
+  double least_pivot_ = 0;
+  double largest_pivot_ = 0;
+};
+
+} // namespace meshless::linear_algebra
