@@ -23,7 +23,7 @@ template <typename MakeProblem>
 study::Benchmark plane(scene::BenchmarkDescription description, MakeProblem make_problem) {
   return {std::move(description), [make_problem](const scene::Scene &scene, const scene::ProblemVariant &variant,
                                                  const std::vector<methods::Method> &methods) {
-            return study::make_plane_experiment(make_problem(scene, variant), methods, study::wants_fields(scene));
+            return study::make_plane_experiment(make_problem(scene, variant), methods, study::extras_of(scene));
           }};
 }
 

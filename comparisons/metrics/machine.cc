@@ -7,11 +7,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 
 // OpenBLAS's own calls; declared here because its header clashes with other CBLAS headers.
 extern "C" {
@@ -39,7 +44,46 @@ std::int64_t total_memory() {
   return 0;
 }
 
+/// Seconds that all cores were busy since the system started: every field of the first line but idle and iowait, less
+/// the guests', which user and nice hold already.
+std::optional<double> busy_seconds() {
+  std::ifstream stat("/proc/stat");
+  std::string name;
+  std::array<double, 8> ticks{}; // user nice system idle iowait irq softirq steal
+  stat >> name;
+  for (double &value : ticks)
+    stat >> value;
+  const long per_second = sysconf(_SC_CLK_TCK);
+  if (!stat || name != "cpu" || per_second <= 0)
+    return {};
+  return (ticks[0] + ticks[1] + ticks[2] + ticks[5] + ticks[6] + ticks[7]) / static_cast<double>(per_second);
+}
+
+double own_seconds() {
+  double sum = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    if (getrusage(who, &usage) == 0)
+      for (const timeval &time : {usage.ru_utime, usage.ru_stime})
+        sum += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+  return sum;
+}
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
 } // namespace
+
+CompetingWork::CompetingWork() : machine_seconds_(busy_seconds()), own_seconds_(own_seconds()), start_(now()) {}
+
+std::optional<double> CompetingWork::cores() const {
+  constexpr double shortest = 0.1; // ten ticks
+  const auto machine = busy_seconds();
+  const double elapsed = now() - start_;
+  if (!machine || !machine_seconds_ || elapsed < shortest)
+    return {};
+  return std::max(0.0, (*machine - *machine_seconds_) - (own_seconds() - own_seconds_)) / elapsed;
+}
 
 std::optional<double> current_load() {
   double loads[1];
@@ -87,12 +131,16 @@ std::vector<std::string> reasons_not_comparable(const reports::Program &program,
   std::vector<std::string> reasons;
   if (program.build_type != "Release")
     reasons.push_back(fmt::format("{} build", program.build_type));
+  if (machine.competing_cores && *machine.competing_cores > least_competing_cores)
+    reasons.push_back(fmt::format("other processes kept {:.2f} of {} cores busy while the cells ran",
+                                  *machine.competing_cores, machine.cores));
+  const bool known = machine.competing_cores.has_value();
   // One busy core of our own is no competition; more than the machine has is.
-  if (machine.cores > 0 && machine.load > 0.75 * machine.cores)
+  if (!known && machine.cores > 0 && machine.load > 0.75 * machine.cores)
     reasons.push_back(fmt::format("the machine was loaded ({:.1f} on {} cores)", machine.load, machine.cores));
   // After a minute the average holds little but this run, which keeps `threads` cores busy.
   const int own = threads.empty() ? machine.threads : *threads.rbegin();
-  if (seconds >= 60 && machine.load_at_end && *machine.load_at_end > own + 0.5)
+  if (!known && seconds >= 60 && machine.load_at_end && *machine.load_at_end > own + 0.5)
     reasons.push_back(fmt::format("other work ran beside (load {:.1f} at the end, of which {} {} this run's)",
                                   *machine.load_at_end, own, own == 1 ? "is" : "are"));
   if (threads.size() > 1)

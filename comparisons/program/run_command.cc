@@ -33,6 +33,7 @@ struct Plan {
   std::vector<scene::Scene> scenes;
   fs::path directory;
   std::vector<std::string> formats;
+  bool brief = false; ///< on the terminal; the files hold everything
   ledger::MissingCells missing = ledger::MissingCells::count_as_missed;
 };
 
@@ -154,6 +155,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
   add_effects(plan.scenes, catalogue, results);
 
   const Interrupt interrupt;
+  const metrics::CompetingWork others;
   {
     Progress progress(options.quiet);
     study::RunOptions run;
@@ -171,6 +173,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     }
   }
   results.interrupted = Interrupt::requested();
+  results.machine.competing_cores = others.cores();
   results.machine.load_at_end = metrics::current_load();
   results.not_comparable = metrics::reasons_not_comparable(results.program, results.machine, threads, watch.lap());
   results.equal_error = reports::equal_errors(results);
@@ -187,7 +190,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     std::error_code ignored;
     fs::remove(plan.directory / "results_published.csv", ignored);
   }
-  fmt::print("{}", reports::text_report(results));
+  fmt::print("{}", plan.brief ? reports::brief_report(results) : reports::text_report(results));
   std::fflush(stdout);
   std::string names;
   for (const auto &file : files)
@@ -259,6 +262,7 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
   if (!options.sets.empty())
     plan.missing = ledger::MissingCells::leave_out;
   plan.directory = options.output.value_or("out");
+  plan.brief = true;
   plan.formats = scenes->front().formats;
   for (auto &scene : *scenes)
     if (full || scene.study.text("effort") == "quick")

@@ -1,5 +1,7 @@
 #include "comparisons/reports/comparison_section.h"
 
+#include "comparisons/reports/facts_section.h"
+
 #include "comparisons/reports/numbers.h"
 
 #include <fmt/format.h>
@@ -139,7 +141,8 @@ std::vector<std::string> further_names(const Group &group) {
   for (const Cell *cell : group.cells)
     for (const auto *map : {&cell->errors, &cell->quantities})
       for (const auto &entry : *map)
-        if (!is_compared(group, entry.first) && !entry.first.starts_with("cloud_") && reportable(*cell, entry.first))
+        if (!is_compared(group, entry.first) && !entry.first.starts_with("cloud_") && !is_fact(entry.first) &&
+            reportable(*cell, entry.first))
           names.insert(entry.first);
   return {names.begin(), names.end()};
 }

@@ -102,6 +102,7 @@ Json machine_json(const Machine &machine) {
           {"memory", machine.memory_bytes},
           {"load", number_or_null(machine.load)},
           {"load_at_end", number_or_null(machine.load_at_end)},
+          {"competing_cores", number_or_null(machine.competing_cores)},
           {"blas", machine.blas},
           {"threads", machine.threads},
           {"simd_lanes", machine.simd_lanes},

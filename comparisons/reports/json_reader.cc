@@ -226,6 +226,8 @@ Machine read_machine(const Node &node) {
   machine.load = node.at("load").number_or_nan();
   if (node.has("load_at_end"))
     machine.load_at_end = node.at("load_at_end").optional_number();
+  if (node.has("competing_cores"))
+    machine.competing_cores = node.at("competing_cores").optional_number();
   machine.blas = node.at("blas").text();
   machine.threads = node.at("threads").small_count();
   machine.simd_lanes = node.at("simd_lanes").small_count();

@@ -3,6 +3,7 @@
 #include "comparisons/reports/answers.h"
 #include "comparisons/reports/answers_section.h"
 #include "comparisons/reports/comparison_section.h"
+#include "comparisons/reports/facts_section.h"
 #include "comparisons/reports/figures.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/growth.h"
@@ -40,6 +41,9 @@ void append_header(Document &document, const Results &results, const std::vector
   lines.push_back(fmt::format("machine: {}, {} cores, {} MB, load {}{}", machine.cpu, machine.cores,
                               megabytes(machine.memory_bytes), significant(machine.load),
                               machine.load_at_end ? ", at the end " + significant(machine.load_at_end) : ""));
+  if (machine.competing_cores)
+    lines.push_back(
+        fmt::format("other processes kept {} cores busy while the cells ran", significant(machine.competing_cores)));
   lines.push_back(
       fmt::format("threads: {}, BLAS: {}, SIMD lanes: {}", machine.threads, machine.blas, machine.simd_lanes));
   std::vector<std::string> libraries;
@@ -87,6 +91,7 @@ Document report_document(const Results &results) {
   append_pareto(document, groups);
   append_rates(document, groups);
   append_ledger(document, results);
+  append_facts(document, groups);
   append_phases(document, groups);
   append_growth(document, groups);
   append_clouds(document, groups);
@@ -132,6 +137,25 @@ std::vector<std::string> unexpected_outcomes(const Results &results) {
 }
 
 std::string text_report(const Results &results) { return render_text(report_document(results)); }
+
+std::string brief_report(const Results &results) {
+  const std::vector<Group> groups = group_cells(results);
+  std::vector<Group> main;
+  for (const Group &group : groups) // the first of a benchmark is its main one
+    if (main.empty() || main.back().benchmark != group.benchmark)
+      main.push_back(group);
+  Document document;
+  append_header(document, results, groups);
+  append_comparison(document, main);
+  if (groups.size() > main.size())
+    document.push_back(Paragraph{fmt::format(
+        "{} further comparisons, the published numbers one by one, the seconds for equal errors, rates and phases are "
+        "in the files.",
+        groups.size() - main.size())});
+  append_unexpected(document, results);
+  append_summary(document, results);
+  return render_text(document);
+}
 
 std::string markdown_report(const Results &results) { return render_markdown(report_document(results)); }
 

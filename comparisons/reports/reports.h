@@ -15,7 +15,11 @@ namespace comparisons::reports {
 /// unexpected outcomes last.
 std::string text_report(const Results &results);
 
-/// The same content in Markdown.
+/// What a reader of many benchmarks wants on the terminal: of every benchmark the main comparison, then what was not as
+/// expected, and the summary. The rest stands in the files.
+std::string brief_report(const Results &results);
+
+/// The same content as text_report in Markdown.
 std::string markdown_report(const Results &results);
 
 /// The same content in LaTeX, to be \input into an article that loads booktabs, longtable and array.

@@ -118,6 +118,8 @@ struct Machine {
   int threads = 1;
   int simd_lanes = 1;
   std::map<std::string, std::string> libraries; ///< name -> version
+  /// Cores that other processes kept busy while the cells ran, on the average; nothing if the system does not tell.
+  std::optional<double> competing_cores = std::nullopt;
 };
 
 /// Everything one run has to say; results.json is exactly this.

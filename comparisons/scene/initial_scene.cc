@@ -150,7 +150,9 @@ std::string initial_scene(const BenchmarkDescription &benchmark, std::span<const
   }
   text += fmt::format("\n[study]\nlevels = [{}]\n", level_list(benchmark, levels));
   auto study = study_declarations();
-  std::erase_if(study, [](const Declaration &d) { return d.name == "levels"; });
+  std::erase_if(study, [&](const Declaration &d) {
+    return d.name == "levels" || (d.name == "facts" && !benchmark.methods.empty());
+  });
   for (auto &declaration : study)
     if (declaration.name == "analysis") {
       declaration.choices = benchmark.analyses;

@@ -255,6 +255,8 @@ void SceneReader::read_problem_and_material() {
 
 void SceneReader::read_study() {
   auto declarations = without(study_declarations(), "levels");
+  if (benchmark_ != nullptr && !benchmark_->methods.empty()) // facts are of the table's methods in the plane
+    declarations = without(std::move(declarations), "facts");
   for (auto &declaration : declarations)
     if (declaration.name == "analysis" && benchmark_ != nullptr) {
       declaration.choices = benchmark_->analyses;

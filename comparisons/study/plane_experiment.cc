@@ -7,6 +7,7 @@
 #include "comparisons/metrics/requested_quantities.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/study/fields.h"
+#include "comparisons/study/method_comparison.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
 
@@ -74,8 +75,8 @@ void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, 
 class PlaneExperiment final : public Experiment {
 public:
   PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods,
-                  bool with_fields)
-      : problem_(std::move(problem)), methods_(methods), with_fields_(with_fields) {}
+                  const PlaneExtras &extras)
+      : problem_(std::move(problem)), methods_(methods), extras_(extras) {}
 
   void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
            const std::filesystem::path &series_directory, reports::Cell &cell) const override {
@@ -119,6 +120,8 @@ public:
       add_cloud_quality(*cloud, cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
+    if (extras_.facts)
+      cell.quantities.merge(measured_facts(method, solve_request, *solution, *problem_, quadrature, cell.warnings));
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())
@@ -128,7 +131,7 @@ public:
       reports::write_file_atomically(series_directory / file, series_text(line, *solution, problem_->exact()));
       cell.series.push_back({line.name, file});
     }
-    if (with_fields_)
+    if (extras_.fields)
       write_fields(*solution, request, level, series_directory, cell);
   }
 
@@ -245,19 +248,21 @@ private:
 
   std::unique_ptr<problems::PlaneProblem> problem_;
   const std::vector<methods::Method> &methods_;
-  bool with_fields_;
+  PlaneExtras extras_;
   mutable std::map<std::string, problems::Quadrature> quadratures_;
 };
 
 } // namespace
 
-bool wants_fields(const scene::Scene &scene) {
-  return std::find(scene.formats.begin(), scene.formats.end(), "vtu") != scene.formats.end();
+PlaneExtras extras_of(const scene::Scene &scene) {
+  return {.fields = std::find(scene.formats.begin(), scene.formats.end(), "vtu") != scene.formats.end(),
+          .facts = scene.study.boolean("facts")};
 }
 
 std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
-                                                  const std::vector<methods::Method> &methods, bool with_fields) {
-  return std::make_unique<PlaneExperiment>(std::move(problem), methods, with_fields);
+                                                  const std::vector<methods::Method> &methods,
+                                                  const PlaneExtras &extras) {
+  return std::make_unique<PlaneExperiment>(std::move(problem), methods, extras);
 }
 
 } // namespace comparisons::study

@@ -9,16 +9,22 @@
 
 namespace comparisons::study {
 
-/// The scene asks for the format vtu.
-bool wants_fields(const scene::Scene &scene);
+/// What a scene may ask for beside errors and seconds.
+struct PlaneExtras {
+  /// The solution on the particles or elements: series "vtu" (for ParaView) and "field" (the same as a table).
+  bool fields = false;
+  /// What Zhang & Batra 2008, Table 7, compares in words: see method_comparison.h.
+  bool facts = false;
+};
+
+/// By the scene's formats (vtu) and its [study] (facts).
+PlaneExtras extras_of(const scene::Scene &scene);
 
 /// Plane elastostatics: every method of the table on the same statement, errors on one quadrature a
 /// level, displacement and stress along the problem's sample lines.
 /// @param methods kept by reference
-/// @param with_fields also write the solution on the particles or elements: series "vtu" (for ParaView) and "field"
-///   (the same as a table)
 std::unique_ptr<Experiment> make_plane_experiment(std::unique_ptr<problems::PlaneProblem> problem,
                                                   const std::vector<methods::Method> &methods,
-                                                  bool with_fields = false);
+                                                  const PlaneExtras &extras = {});
 
 } // namespace comparisons::study

@@ -165,6 +165,9 @@ toml::table shipped() {
   return result ? std::move(result).table() : toml::table{};
 }
 
+/// An item that is open: a sample of one to change.
+constexpr const char *open_item = "Claim: its stability is superior to that of the cubic";
+
 Tree anything() {
   return {[](const std::string &) { return true; }, [](const std::string &) { return false; }};
 }
@@ -217,9 +220,9 @@ TEST(Coverage, EveryFaultIsSeen) {
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.erase("what"); }), "'what' is missing"));
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert_or_assign("scenes", toml::array{}); }),
                         "must be a list"));
-  EXPECT_TRUE(has_fault(faults_after("Section 6.5", [](toml::table &t) { t.insert_or_assign("planned", "x"); }),
+  EXPECT_TRUE(has_fault(faults_after(open_item, [](toml::table &t) { t.insert_or_assign("planned", "x"); }),
                         "'x' is no planned benchmark"));
-  EXPECT_TRUE(has_fault(faults_after("Section 6.5", [](toml::table &t) { t.insert_or_assign("status", "done"); }),
+  EXPECT_TRUE(has_fault(faults_after(open_item, [](toml::table &t) { t.insert_or_assign("status", "done"); }),
                         "the only status"));
   EXPECT_TRUE(has_fault(faults_after("Figure 1", [](toml::table &t) { t.erase("why"); }), "says why"));
 }
@@ -232,5 +235,6 @@ TEST(Coverage, DanglingScenesAndOpenItemsAreSeen) {
   tree.has_benchmark = [](const std::string &benchmark) { return benchmark != "scaling"; };
   EXPECT_TRUE(Checker(tree).faults(shipped()).empty());
   tree.has_benchmark = [](const std::string &) { return true; };
-  EXPECT_TRUE(has_fault(Checker(tree).faults(shipped()), "Section 6.5: still open although all benchmarks exist"));
+  EXPECT_TRUE(has_fault(Checker(tree).faults(shipped()),
+                        std::string(open_item) + ": still open although all benchmarks exist"));
 }

@@ -50,7 +50,7 @@ std::unique_ptr<study::Experiment> make_experiment(const scene::Scene &scene, co
       std::make_unique<problems::GeometryProblem>(std::move(resolved), *scene.geometry,
                                                   static_cast<std::uint64_t>(scene.study.integer("seed")),
                                                   reference_solver(methods)),
-      methods, study::wants_fields(scene));
+      methods, study::extras_of(scene));
 }
 
 } // namespace

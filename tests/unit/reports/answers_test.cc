@@ -235,6 +235,11 @@ TEST(NotComparable, debug_load_and_threads_are_stamped) {
   EXPECT_EQ(reasons_not_comparable(program, machine, {1}, 100).size(), 1u);
   EXPECT_TRUE(reasons_not_comparable(program, machine, {1}, 10).empty()) << "too short for a load average";
   EXPECT_TRUE(reasons_not_comparable(program, machine, {2}, 100).empty()) << "two threads of our own";
+  machine.competing_cores = 0.05;
+  EXPECT_TRUE(reasons_not_comparable(program, machine, {1}, 100).empty()) << "measured: load averages are of the past";
+  machine.competing_cores = 0.7;
+  EXPECT_EQ(reasons_not_comparable(program, machine, {1}, 100).size(), 1u);
+  machine.competing_cores.reset();
   machine.load = 1.9;
   EXPECT_EQ(reasons_not_comparable(program, machine, {2}, 100).size(), 1u);
   program.build_type = "Debug";

@@ -217,6 +217,28 @@ void check_rates(Comparison &comparison, const Results &results, const ParsedTab
     }
 }
 
+/// A column a method, a row a fact; rows of facts that the sample does not have hold dashes.
+void check_facts(Comparison &comparison, const Json &json, const ParsedTable &table) {
+  const std::map<std::string, std::string> quantities{{"nonzeros a row", "fact_nonzeros_per_row"},
+                                                      {"symmetry defect", "fact_symmetry_defect"},
+                                                      {"jump between neighbours over size", "fact_stress_jump"}};
+  ASSERT_EQ(table.header.size(), 7u) << table.title;
+  std::size_t n_found = 0, n_rows_of_the_paper = 0;
+  for (const auto &row : table.rows) {
+    n_rows_of_the_paper += !row[0].empty() && !row[3].empty() ? 1 : 0;
+    const auto found = quantities.find(row[3]);
+    n_found += found != quantities.end() ? 1 : 0;
+    for (std::size_t j = 4; j < row.size(); ++j) {
+      const Json *cell = find_cell(json, table.title, table.header[j], "16x4");
+      ASSERT_NE(cell, nullptr) << table.title << ", " << table.header[j];
+      const Json value = found != quantities.end() ? cell->at("quantities").at(found->second) : Json();
+      comparison.expect_printed(row[j], value, table.title + ", " + row[3]);
+    }
+  }
+  EXPECT_EQ(n_found, quantities.size());
+  EXPECT_GE(n_rows_of_the_paper, 14u);
+}
+
 void check(const std::vector<ParsedTable> &tables, const std::map<std::string, int> &fewer = {}) {
   const Results results = reports_sample::results();
   const Json json = to_json(results);
@@ -233,6 +255,8 @@ void check(const std::vector<ParsedTable> &tables, const std::map<std::string, i
     else if (table.section == "Comparison" || table.section == "Seconds by phase" ||
              table.section == "Particles and bases" || table.section == "Further errors and quantities")
       check_cell_table(comparison, json, results, table);
+    else if (table.section.starts_with("SSPH and finite elements"))
+      check_facts(comparison, json, table);
     else if (table.section == "Published numbers and claims" && table.header[1] != "claim")
       check_ledger_table(comparison, json, table);
   }
@@ -241,6 +265,7 @@ void check(const std::vector<ParsedTable> &tables, const std::map<std::string, i
                                       {"Seconds for equal errors", 2},
                                       {"Not beaten in seconds and error (Pareto front)", 2},
                                       {"Orders of convergence", 1},
+                                      {"SSPH and finite elements, measured (Zhang & Batra 2008, Table 7)", 1},
                                       {"Scenes", 1},
                                       {"Summary", 1},
                                       {"Seconds by phase", 3},
