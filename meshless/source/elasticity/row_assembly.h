@@ -25,15 +25,27 @@ struct SolvedRows {
   std::int64_t nonzeros = 0;
 };
 
+/// Room for all rows, once the first particles have told their length: growing step by step copies the matrix several
+/// times and holds it twice.
+inline void reserve_by_first(linear_algebra::SparseRows &matrix, std::size_t n_done, std::size_t n_particles) {
+  constexpr double margin = 1.05;
+  matrix.reserve(static_cast<std::size_t>(margin * static_cast<double>(matrix.nonzeros()) *
+                                          static_cast<double>(n_particles) / static_cast<double>(n_done)));
+}
+
 /// Assembles all rows, by as many threads as are set; the rows are the same for any number of them. `assembler.seconds`
 /// grow by the time that passes, shared between the phases as the threads spent theirs.
 /// @param another () -> Assembler, one for each thread more
 template <typename Assembler, typename Another>
 void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
                    linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+  constexpr std::size_t n_first = 4096; // many rows, and few of a large system
   if (parallel::threads() == 1) {
-    for (std::size_t i = 0; i < n_particles; ++i)
+    for (std::size_t i = 0; i < n_particles; ++i) {
+      if (i == n_first)
+        reserve_by_first(matrix, i, n_particles);
       assembler.assemble(i, matrix, right_hand_side);
+    }
     return;
   }
   struct Rows {
@@ -41,6 +53,7 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
     std::vector<double> right_hand_side;
   };
   constexpr std::size_t chunk = 32; // a millisecond or so
+  static_assert(n_first % chunk == 0);
   linear_algebra::Stopwatch watch;
   tbb::enumerable_thread_specific<Assembler> assemblers(another);
   parallel::in_ordered_chunks<Rows>(
@@ -53,6 +66,10 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
         return rows;
       },
       [&](const Rows &rows) {
+        if (const std::size_t n_done =
+                right_hand_side.size() * n_particles / static_cast<std::size_t>(matrix.n_columns());
+            n_done == n_first)
+          reserve_by_first(matrix, n_done, n_particles);
         matrix.append_rows(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
       });
