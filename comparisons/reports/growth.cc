@@ -1,12 +1,12 @@
 #include "comparisons/reports/growth.h"
 
+#include "comparisons/metrics/slopes.h"
 #include "comparisons/reports/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace comparisons::reports {
 
@@ -26,33 +26,21 @@ std::optional<double> cost_of(const Cell &cell, std::string_view cost) {
 } // namespace
 
 std::optional<double> growth_exponent(const MethodSeries &series, std::string_view cost) {
-  std::vector<std::array<double, 2>> points;
-  double most_seconds = 0;
+  std::vector<double> counts;
+  std::vector<double> values;
   for (const Cell *cell : series.cells) {
     const auto value = cost_of(*cell, cost);
     if (cell->status != Status::ok || cell->n_dofs <= 0 || !value || !(*value > 0))
       continue;
-    points.push_back({std::log(static_cast<double>(cell->n_dofs)), std::log(*value)});
-    most_seconds = std::max(most_seconds, *value);
+    counts.push_back(static_cast<double>(cell->n_dofs));
+    values.push_back(*value);
   }
-  if (points.size() < 3 || (cost != "memory" && most_seconds < least_seconds))
+  if (counts.size() < 3 || (cost != "memory" && std::ranges::max(values) < least_seconds))
     return {};
-  const auto [least, most] = std::ranges::minmax_element(points);
-  if ((*most)[0] - (*least)[0] < std::log(least_growth))
+  const auto [least, most] = std::ranges::minmax(counts);
+  if (most < least_growth * least)
     return {};
-  double mean_x = 0;
-  double mean_y = 0;
-  for (const auto &[x, y] : points) {
-    mean_x += x / static_cast<double>(points.size());
-    mean_y += y / static_cast<double>(points.size());
-  }
-  double xx = 0;
-  double xy = 0;
-  for (const auto &[x, y] : points) {
-    xx += (x - mean_x) * (x - mean_x);
-    xy += (x - mean_x) * (y - mean_y);
-  }
-  return xy / xx;
+  return -metrics::least_squares_slope(counts, values); // the slope is against 1 / N
 }
 
 void append_growth(Document &document, const std::vector<Group> &groups) {

@@ -10,6 +10,7 @@
 #include "comparisons/study/method_comparison.h"
 
 #include "meshless/linear_algebra/stopwatch.h"
+#include "meshless/linear_algebra/system_solver.h"
 
 #include <fmt/format.h>
 
@@ -202,10 +203,10 @@ private:
 
   static bool iterates(const scene::Parameters &p) { return p.has("solver") && p.text("solver") != "umfpack"; }
 
-  /// A sparse LU in two dimensions fills like N log N and works like N^1.5; so does an iteration, with smaller
-  /// constants.
+  /// A sparse LU in two dimensions fills like N log N and works like N^1.5. The iteration's work hardly grows faster
+  /// than N.
   static void estimate_system(double nonzeros, bool iterative, Estimate &e) {
-    if (iterative && e.n_dofs >= 1000) {
+    if (iterative && e.n_dofs >= meshless::linear_algebra::least_unknowns_to_iterate) {
       e.bytes = 2e5 + 30 * nonzeros;
       e.seconds = 6e-8 * nonzeros * (1 + .25 * std::log10(e.n_dofs / 1000));
       return;

@@ -8,6 +8,13 @@
 #include <vector>
 
 namespace fem_reference::elasticity {
+/// d x_i / d xi_k at a point of a cell.
+struct Jacobian {
+  double j11 = 0, j12 = 0, j21 = 0, j22 = 0;
+
+  double determinant() const { return j11 * j22 - j12 * j21; }
+};
+
 /// Nodes of a continuous space of elements Qp and Pp on a mesh, as plain arrays. Positions are relative to `origin`.
 struct Discretisation {
   /// A side of a cell on the boundary; see ReferenceElement::side.
@@ -41,6 +48,19 @@ struct Discretisation {
   /// Node k of a side of a cell, counter-clockwise.
   unsigned node_of_side(const Edge &edge, unsigned k) const {
     return cell_nodes[cell_start[edge.cell] + element_of(edge.cell).side(edge.side)[k]];
+  }
+  /// At the point where the shape functions of the cell have these derivatives along xi_1 and xi_2.
+  Jacobian jacobian(std::size_t cell, const double *gradient_1, const double *gradient_2) const {
+    Jacobian j;
+    const auto nodes = nodes_of(cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto &x = positions[nodes[a]];
+      j.j11 += x[0] * gradient_1[a];
+      j.j12 += x[0] * gradient_2[a];
+      j.j21 += x[1] * gradient_1[a];
+      j.j22 += x[1] * gradient_2[a];
+    }
+    return j;
   }
   /// The node's position in the caller's coordinates.
   mesh::Point original_position(std::size_t node) const {

@@ -56,17 +56,10 @@ double visit_points(const Discretisation &discretisation, bool with_gradients, E
         sum += n[a];
       if (!with_gradients)
         continue;
-      double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
-      for (std::size_t a = 0; a < nodes.size(); ++a) {
-        const auto &x = discretisation.positions[nodes[a]];
-        j11 += x[0] * d1[a];
-        j12 += x[0] * d2[a];
-        j21 += x[1] * d1[a];
-        j22 += x[1] * d2[a];
-      }
-      const double determinant = j11 * j22 - j12 * j21;
+      const auto j = discretisation.jacobian(c, d1.data(), d2.data());
+      const double determinant = j.determinant();
       for (std::size_t a = 0; a < nodes.size(); ++a)
-        sum += (j22 * d1[a] - j21 * d2[a]) / determinant + (j11 * d2[a] - j12 * d1[a]) / determinant;
+        sum += (j.j22 * d1[a] - j.j21 * d2[a]) / determinant + (j.j11 * d2[a] - j.j12 * d1[a]) / determinant;
       if (facts != nullptr)
         facts->area += determinant * rule.weights[q];
     }

@@ -1,5 +1,7 @@
 #include "mixed.h"
 
+#include "stiffness.h"
+
 #include "fem_reference/errors.h"
 
 #include <algorithm>
@@ -96,21 +98,14 @@ void integrate_cell(const Discretisation &discretisation, const Tables &tables, 
   for (int q = 0; q < tables.shape.n_points; ++q) {
     const double *d1 = &tables.shape.gradients_1[static_cast<std::size_t>(q) * n];
     const double *d2 = &tables.shape.gradients_2[static_cast<std::size_t>(q) * n];
-    double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
-    for (unsigned a = 0; a < n; ++a) {
-      const auto &x = discretisation.positions[nodes[a]];
-      j11 += x[0] * d1[a];
-      j12 += x[0] * d2[a];
-      j21 += x[1] * d1[a];
-      j22 += x[1] * d2[a];
-    }
-    const double determinant = j11 * j22 - j12 * j21;
+    const auto j = discretisation.jacobian(c, d1, d2);
+    const double determinant = j.determinant();
     if (!(determinant > 0))
-      throw InvalidInput(fmt::format("mesh: the Jacobian of cell {} is not positive everywhere; move its vertices", c));
+      refuse_jacobian(discretisation, c);
     const double jxw = tables.shape.weights[static_cast<std::size_t>(q)] * determinant;
     for (unsigned a = 0; a < n; ++a) {
-      g1[a] = (j22 * d1[a] - j21 * d2[a]) / determinant;
-      g2[a] = (j11 * d2[a] - j12 * d1[a]) / determinant;
+      g1[a] = (j.j22 * d1[a] - j.j21 * d2[a]) / determinant;
+      g2[a] = (j.j11 * d2[a] - j.j12 * d1[a]) / determinant;
     }
     const auto &psi = tables.pressure[static_cast<std::size_t>(q)];
     for (unsigned a = 0; a < n; ++a) {

@@ -68,14 +68,19 @@ void impose(const EssentialData &essential, std::vector<double> &displacement) {
       displacement[i] = essential.values[i];
 }
 
+/// The residual of the free unknowns, by cells.
+std::vector<double> free_residual(const PlaneSolution::Implementation &solution) {
+  auto residual = internal_forces(solution.discretisation, solution.materials, solution.values).forces;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    residual[i] = solution.essential.prescribed[i] != 0 ? 0 : solution.loads.nodal[i] - residual[i];
+  return residual;
+}
+
 /// One step of iterative refinement with the accurate residual.
 void correct(linear_algebra::DirectSolver &solver, PlaneSolution::Implementation &solution) {
   const auto &prescribed = solution.essential.prescribed;
   auto &displacement = solution.values;
-  auto residual = internal_forces(solution.discretisation, solution.materials, displacement).forces;
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] = prescribed[i] != 0 ? 0 : solution.loads.nodal[i] - residual[i];
-  const auto correction = solver.solve(residual);
+  const auto correction = solver.solve(free_residual(solution));
   for (std::size_t i = 0; i < displacement.size(); ++i)
     if (prescribed[i] == 0)
       displacement[i] += correction[i];
@@ -101,14 +106,6 @@ void solve_mixed_system(const PlaneProblem &problem, PlaneSolution::Implementati
   impose(solution.essential, solution.values);
   check_finite(solution.values);
   seconds.solve = stopwatch.lap();
-}
-
-/// The residual of the free unknowns, by cells.
-std::vector<double> free_residual(const PlaneSolution::Implementation &solution) {
-  auto residual = internal_forces(solution.discretisation, solution.materials, solution.values).forces;
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] = solution.essential.prescribed[i] != 0 ? 0 : solution.loads.nodal[i] - residual[i];
-  return residual;
 }
 
 /// Corrections of the prescribed displacements, continued by zero: the first is the solution. What it leaves is the

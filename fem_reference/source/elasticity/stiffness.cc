@@ -181,18 +181,6 @@ void add_internal_forces(const ReferenceElement &element, const Discretisation &
   result.energy += .5 * twice_energy;
 }
 
-[[noreturn]] void refuse_jacobian(const Discretisation &discretisation, std::size_t c) {
-  mesh::Point centre{};
-  const auto nodes = discretisation.nodes_of(c);
-  for (const unsigned node : nodes)
-    for (std::size_t d = 0; d < 2; ++d)
-      centre[d] += discretisation.original_position(node)[d] / static_cast<double>(nodes.size());
-  throw InvalidInput(fmt::format(
-      "mesh: the Jacobian of cell {} around ({}, {}) is not positive everywhere; {}", c, centre[0], centre[1],
-      discretisation.curved[c] != 0 ? "a curved side folds it: use smaller cells there, or curve the sides inside too"
-                                    : "move its vertices"));
-}
-
 template <int n_nodes>
 void assemble(const ReferenceElement &element, const Discretisation &discretisation,
               std::span<const Material> materials, linear_algebra::BlockMatrix &matrix) {
@@ -243,6 +231,18 @@ void for_each_element(const Discretisation &discretisation, const Function &func
   }
 }
 } // namespace
+
+void refuse_jacobian(const Discretisation &discretisation, std::size_t c) {
+  mesh::Point centre{};
+  const auto nodes = discretisation.nodes_of(c);
+  for (const unsigned node : nodes)
+    for (std::size_t d = 0; d < 2; ++d)
+      centre[d] += discretisation.original_position(node)[d] / static_cast<double>(nodes.size());
+  throw InvalidInput(fmt::format(
+      "mesh: the Jacobian of cell {} around ({}, {}) is not positive everywhere; {}", c, centre[0], centre[1],
+      discretisation.curved[c] != 0 ? "a curved side folds it: use smaller cells there, or curve the sides inside too"
+                                    : "move its vertices"));
+}
 
 void assemble_stiffness(const Discretisation &discretisation, std::span<const Material> materials,
                         linear_algebra::BlockMatrix &matrix) {

@@ -12,6 +12,9 @@ namespace fem_reference::elasticity {
 void assemble_stiffness(const Discretisation &discretisation, std::span<const Material> materials,
                         linear_algebra::BlockMatrix &matrix);
 
+/// Throws InvalidInput naming the cell, where it is and what helps: its Jacobian is not positive at a quadrature point.
+[[noreturn]] void refuse_jacobian(const Discretisation &discretisation, std::size_t cell);
+
 /// K u cell by cell from the stress (2 mu eps + p I with the pressure of a mixed method), without the matrix, and the
 /// strain energy u K u / 2, both per m of thickness. The displacement enters through its differences within each cell,
 /// so that the rounding error is that of the strain and not of u / h: one correction with this residual removes most of

@@ -1,14 +1,12 @@
 #include "stiffness_operator.h"
 
-#include "fem_reference/errors.h"
+#include "../elasticity/stiffness.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <experimental/simd>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace fem_reference::multigrid {
 namespace {
@@ -117,7 +115,7 @@ void CellwiseStiffness<Number, n>::set_geometry(const Discretisation &space) {
           }
         const double determinant = j11 * j22 - j12 * j21;
         if (!(determinant > 0))
-          throw InvalidInput(fmt::format("mesh: the Jacobian of cell {} is not positive everywhere", c));
+          elasticity::refuse_jacobian(space, c);
         const double factor = std::sqrt(t.weight[q1] * t.weight[q2] / determinant);
         const std::array<double, 4> s{j22 * factor, -j12 * factor, -j21 * factor, j11 * factor};
         for (std::size_t k = 0; k < 4; ++k)

@@ -3,6 +3,7 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,11 @@ struct BlockRows {
   std::vector<Index> columns;
   std::vector<Block> blocks;
 };
+
+/// Sum of the absolute entries.
+inline double size_of(const BlockRows::Block &a) {
+  return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) + std::abs(a[3]);
+}
 
 /// Reverse Cuthill-McKee: order[k] is the particle at place k. Neighbours are near each other, which keeps what an
 /// incomplete factorisation leaves out small, and the caches full.

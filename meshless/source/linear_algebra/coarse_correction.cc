@@ -11,12 +11,8 @@ namespace {
 /// Few enough particles that what is constant on them describes what the factors leave; with 8 the coarse system costs
 /// as much as it saves, with 100 iterations double.
 constexpr std::size_t aggregate_size = 25;
-/// Neighbours of an aggregate's particle join it if their entries, of rows whose largest is about 1, are not small.
+/// Neighbours of an aggregate's particle join it if their entries, of rows whose largest is 1, are not small.
 constexpr double near_entry = 0.05;
-
-double size_of(const BlockRows::Block &a) {
-  return std::max(std::max(std::abs(a[0]), std::abs(a[1])), std::max(std::abs(a[2]), std::abs(a[3])));
-}
 
 } // namespace
 

@@ -9,8 +9,6 @@ namespace {
 
 using Block = BlockRows::Block;
 
-double size_of(const Block &a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) + std::abs(a[3]); }
-
 template <typename Right>
 Block product(const Block &a, const Right &b) {
   return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3]};

@@ -102,24 +102,6 @@ private:
   Vector preconditioned_;
 };
 
-double maximum_norm(const Vector &x) {
-  double largest = 0;
-  for (const double value : x)
-    largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-double row_sum_norm(const SparseRows &matrix) {
-  double largest = 0;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(matrix.n_rows()); ++row) {
-    double sum = 0;
-    for (auto k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
-      sum += std::abs(matrix.values()[static_cast<std::size_t>(k)]);
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
 } // namespace
 
 std::optional<IterativeResult> solve_iteratively(const SparseRows &matrix, std::span<const double> right_hand_side,
@@ -141,7 +123,7 @@ std::optional<IterativeResult> solve_iteratively(const SparseRows &matrix, std::
   Vector best = x;
   Vector residual = b;
   Vector image(b.size());
-  const double norm = row_sum_norm(matrix);
+  const double norm = maximum_norm(matrix);
   const double norm_b = maximum_norm(b);
   CoarseCorrection preconditioner(blocks, factors);
   BiCgStab iteration(blocks, preconditioner, norm, norm_b);

@@ -58,25 +58,31 @@ void SparseRows::multiply(std::span<const double> x, std::span<double> y) const 
   }
 }
 
-double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b) {
-  std::vector<double> product(b.size());
-  matrix.multiply(x, product);
-  double residual = 0;
-  double right = 0;
-  double norm = 0;
-  double solution = 0;
-  for (std::size_t row = 0; row < b.size(); ++row) {
-    residual = std::max(residual, std::abs(b[row] - product[row]));
-    right = std::max(right, std::abs(b[row]));
+double maximum_norm(std::span<const double> x) {
+  double largest = 0;
+  for (const double value : x)
+    largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+double maximum_norm(const SparseRows &matrix) {
+  double largest = 0;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(matrix.n_rows()); ++row) {
     double sum = 0;
     for (auto k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
       sum += std::abs(matrix.values()[static_cast<std::size_t>(k)]);
-    norm = std::max(norm, sum);
+    largest = std::max(largest, sum);
   }
-  for (const double value : x)
-    solution = std::max(solution, std::abs(value));
-  const double scale = norm * solution + right;
-  return scale > 0 ? residual / scale : 0;
+  return largest;
+}
+
+double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b) {
+  std::vector<double> residual(b.size());
+  matrix.multiply(x, residual);
+  for (std::size_t row = 0; row < b.size(); ++row)
+    residual[row] = b[row] - residual[row];
+  const double scale = maximum_norm(matrix) * maximum_norm(x) + maximum_norm(b);
+  return scale > 0 ? maximum_norm(residual) / scale : 0;
 }
 
 SparseRows combine(double a, const SparseRows &matrix_a, double b, const SparseRows &matrix_b) {

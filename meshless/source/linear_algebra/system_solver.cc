@@ -7,10 +7,9 @@ namespace meshless::linear_algebra {
 
 SystemSolution solve_system(const SparseRows &matrix, std::span<const double> right_hand_side, SystemSolver solver,
                             std::size_t unknowns_per_particle) {
-  constexpr std::int64_t few_unknowns = 1000;
-  const bool iterate =
-      unknowns_per_particle == 2 &&
-      (solver == SystemSolver::iterative || (solver == SystemSolver::automatic && matrix.n_rows() >= few_unknowns));
+  const bool iterate = unknowns_per_particle == 2 &&
+                       (solver == SystemSolver::iterative ||
+                        (solver == SystemSolver::automatic && matrix.n_rows() >= least_unknowns_to_iterate));
   SystemSolution result;
   if (iterate) {
     if (auto iterated = solve_iteratively(matrix, right_hand_side)) {

@@ -46,6 +46,11 @@ private:
 /// a A + b B for matrices of the same size.
 SparseRows combine(double a, const SparseRows &matrix_a, double b, const SparseRows &matrix_b);
 
+/// Largest |x_i|.
+double maximum_norm(std::span<const double> x);
+/// |A|_inf, the largest sum of a row's absolute entries.
+double maximum_norm(const SparseRows &matrix);
+
 /// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf): how far the system must be changed to make x exact.
 double backward_error(const SparseRows &matrix, std::span<const double> x, std::span<const double> b);
 

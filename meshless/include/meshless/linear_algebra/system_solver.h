@@ -2,15 +2,19 @@
 
 #include "meshless/linear_algebra/sparse_rows.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace meshless::linear_algebra {
 
+/// Systems of fewer unknowns are solved as fast by sparse LU.
+inline constexpr std::int64_t least_unknowns_to_iterate = 1000;
+
 enum class SystemSolver {
   direct,    ///< sparse LU
   iterative, ///< solve_iteratively; sparse LU if it does not converge
-  automatic, ///< iterative from 1000 unknowns up, where it overtakes sparse LU
+  automatic, ///< iterative from least_unknowns_to_iterate up
 };
 
 struct SystemSolution {
