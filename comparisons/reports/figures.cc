@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -126,11 +124,6 @@ GnuplotFigure phase_figure(const Group &group) {
   return n > 0 ? figure : GnuplotFigure();
 }
 
-std::string contents_of(const fs::path &file) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream ? std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()) : std::string();
-}
-
 /// One data file of the finest ok cell of a label.
 struct LabelTable {
   std::string label;
@@ -149,7 +142,7 @@ std::vector<std::pair<std::string, std::vector<LabelTable>>> tables_of(const Gro
     for (const Series &one : (*finest)->series) {
       if (!one.file.ends_with(".csv"))
         continue;
-      NumberTable table = parse_number_table(contents_of(directory / one.file));
+      NumberTable table = parse_number_table(file_contents(directory / one.file));
       if (table.n_rows() < 2 || table.names.size() < 2)
         continue;
       auto found = std::find_if(all.begin(), all.end(), [&](const auto &entry) { return entry.first == one.name; });

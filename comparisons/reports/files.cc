@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <unistd.h>
 
@@ -75,6 +77,11 @@ private:
 };
 
 } // namespace
+
+std::string file_contents(const std::filesystem::path &path) {
+  std::ifstream stream(path, std::ios::binary);
+  return stream ? std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()) : std::string();
+}
 
 void write_file_atomically(const std::filesystem::path &path, std::string_view contents) {
   TemporaryFile file(path);

@@ -18,6 +18,9 @@ public:
 /// stays as it was, and OutputError is thrown.
 void write_file_atomically(const std::filesystem::path &path, std::string_view contents);
 
+/// Empty if the file cannot be read.
+std::string file_contents(const std::filesystem::path &path);
+
 /// Creates the directory with its parents and tries to write in it. To be called before any computing, so that a run
 /// does not end with results that cannot be kept. Throws OutputError.
 void prepare_output_directory(const std::filesystem::path &directory);

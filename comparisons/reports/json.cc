@@ -57,8 +57,11 @@ Json cell_json(const Cell &cell) {
   json["quantities"] = numbers(cell, cell.quantities);
   json["seconds"] = seconds(cell);
   json["series"] = Json::array();
-  for (const Series &series : cell.series)
+  for (const Series &series : cell.series) {
     json["series"].push_back({{"name", series.name}, {"file", series.file}});
+    if (series.time)
+      json["series"].back()["time"] = *series.time;
+  }
   json["steps"] = cell.steps;
   json["memory_bytes"] = cell.memory_bytes;
   json["nonzeros"] = cell.nonzeros;

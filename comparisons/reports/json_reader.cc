@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -151,6 +152,17 @@ std::map<std::string, Spread> read_seconds(const Node &node) {
   return seconds;
 }
 
+/// Reports are rebuilt into files beside these: none may lie outside the folder.
+Series read_series(const Node &node) {
+  Series series{node.at("name").text(), node.at("file").text()};
+  const std::filesystem::path file = std::filesystem::path(series.file).lexically_normal();
+  if (file.empty() || file.is_absolute() || *file.begin() == "..")
+    node.at("file").fail(fmt::format("found '{}', expected a file below the folder of the results", series.file));
+  if (node.has("time"))
+    series.time = node.at("time").optional_number();
+  return series;
+}
+
 Cell read_cell(const Node &node) {
   Cell cell;
   cell.benchmark = node.at("benchmark").text();
@@ -177,7 +189,7 @@ Cell read_cell(const Node &node) {
   cell.seconds = read_seconds(node.at("seconds"));
   cell.repeats = node.at("seconds").at("repeats").small_count();
   for (const Node &series : node.at("series").items())
-    cell.series.push_back({series.at("name").text(), series.at("file").text()});
+    cell.series.push_back(read_series(series));
   cell.steps = node.at("steps").count();
   cell.memory_bytes = node.at("memory_bytes").count();
   cell.nonzeros = node.at("nonzeros").count();

@@ -12,10 +12,10 @@
 #include "comparisons/reports/ledger_section.h"
 #include "comparisons/reports/numbers.h"
 #include "comparisons/reports/page/page.h"
+#include "comparisons/reports/paraview.h"
 #include "comparisons/reports/plot.h"
 #include "comparisons/reports/scene_section.h"
 #include "comparisons/reports/summary.h"
-#include "comparisons/reports/vtu.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -168,22 +168,6 @@ const std::vector<std::string> &report_formats() {
 
 namespace {
 
-/// Levels are the times of a collection, labels its parts.
-std::string collection(const Group &group, const std::filesystem::path &series,
-                       const std::filesystem::path &directory) {
-  std::vector<CollectionEntry> entries;
-  std::size_t part = 0;
-  for (const MethodSeries &one : series_of(group)) {
-    for (std::size_t level = 0; level < one.cells.size(); ++level)
-      for (const Series &file : one.cells[level]->series)
-        if (file.file.ends_with(".vtu"))
-          entries.push_back({static_cast<double>(level), part, one.label + ", " + one.cells[level]->level,
-                             std::filesystem::proximate(series / file.file, directory).string()});
-    ++part;
-  }
-  return entries.empty() ? std::string() : pvd_text(entries);
-}
-
 /// Writes one format after the other.
 class Writer {
 public:
@@ -209,8 +193,10 @@ public:
         add(stem_ + "_published.csv", csv_published(results_));
     } else if (format == "vtu") {
       for (const Group &group : group_cells(results_))
-        if (const std::string text = collection(group, series_, directory_); !text.empty())
-          add(file_stem(group) + ".pvd", text);
+        for (const TextFile &file : paraview_files(group, series_, directory_)) {
+          prepare_output_directory((directory_ / file.name).parent_path());
+          add(file.name, file.text);
+        }
     } else if (!write_figures(gnuplot_figures(results_, series_), directory_ / "figures", complaints).empty())
       files_.push_back(directory_ / "figures");
   }

@@ -37,8 +37,8 @@ std::string csv_published(const Results &results);
 
 /// The formats that write_reports knows: text (stem.txt), md (stem.md), csv (stem.csv and, with published
 /// numbers, stem_published.csv), json (stem.json), tex (stem_tables.tex to be \input, and stem.tex, an article of it),
-/// html (report.html), figures (gnuplot's scripts and data, SVG and PDF, in figures/) and vtu (collections .pvd of the
-/// fields that the run wrote).
+/// html (report.html), figures (gnuplot's scripts and data, SVG and PDF, in figures/) and vtu (states
+/// of runs in time, and collections .pvd of them or of the fields that the run wrote).
 const std::vector<std::string> &report_formats();
 
 /// Where write_reports finds what is not in the results.

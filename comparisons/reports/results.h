@@ -29,6 +29,7 @@ enum class Status { ok, refused, failed, limit };
 struct Series {
   std::string name;
   std::string file;
+  std::optional<double> time = {}; ///< s, of a state of a run in time; its first column is the place `x`
 };
 
 /// Method x level of one scene (and problem variant), with all that was measured.

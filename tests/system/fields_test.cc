@@ -1,13 +1,16 @@
-// Fields for ParaView and figures by gnuplot, from a run and rebuilt from its results. The fields are read back by
-// meshio, a reader of VTK's files that shares nothing with this program.
+// Fields for ParaView and figures by gnuplot, from a run and rebuilt from its results. The fields are read back by VTK
+// itself, through the viewer f3d (counts, names, ranges), and by meshio (every value).
 
 #include "comparisons/reports/gnuplot.h"
 #include "comparisons/reports/json.h"
 #include "system/program_here.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -48,6 +51,36 @@ ReadBack read_back(const fs::path &vtu, const Folder &folder) {
     for (double &value : values)
       stream >> value;
     std::getline(stream, line);
+  }
+  return read;
+}
+
+/// What VTK read: counts, and by name the range of each component.
+struct ReadByVtk {
+  std::size_t n_points = 0, n_cells = 0;
+  std::map<std::string, std::vector<std::pair<double, double>>> ranges;
+};
+
+ReadByVtk read_by_vtk(const fs::path &vtu, const Folder &folder) {
+  const auto ended =
+      Process({"--dry-run", "--verbose", "--no-render", vtu.string()}, folder.path(), "/usr/bin/f3d").wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err.find("error"), std::string::npos) << ended.err;
+  ReadByVtk read;
+  std::istringstream stream(ended.out);
+  std::string line;
+  while (std::getline(stream, line)) {
+    std::sscanf(line.c_str(), "Number of points: %zu", &read.n_points);
+    std::sscanf(line.c_str(), "Number of cells: %zu", &read.n_cells);
+    // "  stress : double : [-1, 1] [-2, 2] [-3, 3]"
+    const auto colon = line.find(" : double : ");
+    if (!line.starts_with("  ") || colon == std::string::npos)
+      continue;
+    auto &ranges = read.ranges[line.substr(2, colon - 2)];
+    double from = 0, to = 0;
+    for (auto open = line.find('[', colon); open != std::string::npos; open = line.find('[', open + 1))
+      if (std::sscanf(line.c_str() + open, "[%lf, %lf]", &from, &to) == 2)
+        ranges.emplace_back(from, to);
   }
   return read;
 }
@@ -118,6 +151,86 @@ TEST_F(Fields, are_read_back_with_points_names_and_values) {
     EXPECT_GT(relative, 0.3 * reported) << cell.label;
     EXPECT_LT(relative, 1.5 * reported) << cell.label;
   }
+}
+
+TEST_F(Fields, are_read_by_vtk_with_counts_names_and_ranges) {
+  if (!fs::exists("/usr/bin/f3d"))
+    GTEST_SKIP() << "f3d is not installed; ./petrov test installs what packages.txt names";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const auto &cell : reports::read_results(*folder / "a/results.json").cells) {
+    const bool elements = cell.method == "fem";
+    const auto read = read_by_vtk(*folder / "a" / file_of(cell, "vtu"), *folder);
+    const std::size_t n_elements = cell.level == "16x4" ? 45 : 180;
+    EXPECT_EQ(read.n_points, elements ? 9 * n_elements : static_cast<std::size_t>(cell.n_points));
+    EXPECT_EQ(read.n_cells, elements ? 4 * n_elements : static_cast<std::size_t>(cell.n_points));
+    EXPECT_EQ(read.ranges.size(), elements ? 6u : 9u);
+
+    // The table beside the file has a column for each component, in the same order; a vector of the plane has a third.
+    const auto table = reports::parse_number_table(contents(*folder / "a" / file_of(cell, "field")));
+    const auto expect_range = [&](const std::string &name, std::size_t component, const std::string &column) {
+      SCOPED_TRACE(cell.label + ": " + name);
+      ASSERT_TRUE(read.ranges.contains(name));
+      ASSERT_GT(read.ranges.at(name).size(), component);
+      const auto &values = table.columns[table.find(column)];
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      const double printed = 1e-5 * std::max(std::abs(*low), std::abs(*high)); // six digits are printed
+      EXPECT_NEAR(read.ranges.at(name)[component].first, *low, printed);
+      EXPECT_NEAR(read.ranges.at(name)[component].second, *high, printed);
+    };
+    for (const std::string name : {"strain", "stress"})
+      for (const auto &[component, ending] : {std::pair(0u, "_11"), std::pair(1u, "_22"), std::pair(2u, "_12")})
+        expect_range(name, component, name + ending);
+    expect_range("displacement", 0, "displacement_1");
+    expect_range("displacement", 1, "displacement_2");
+    for (const std::string name : {"von_mises", "displacement_error", "stress_error"})
+      expect_range(name, 0, name);
+    if (!elements)
+      for (const std::string name : {"moment_pivot_ratio", "n_neighbours", "smoothing_length"})
+        expect_range(name, 0, name);
+  }
+}
+
+/// States of a run in time: one file each with what the tables hold, and their seconds in the collection; rebuilt from
+/// the results elsewhere with the same bytes.
+TEST(FieldsInTime, are_read_by_vtk) {
+  if (!fs::exists("/usr/bin/f3d"))
+    GTEST_SKIP() << "f3d is not installed; ./petrov test installs what packages.txt names";
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"bar_wave\"\n[[method]]\nname = \"ssph\"\n[[method]]\n"
+                             "name = \"fem\"\n[time]\nend = \"10 us\"\nsnapshots = 2\n[study]\n"
+                             "levels = [100]\nrepeats = 1\n");
+  const auto ended = run_here({"run", "scene.toml", "--quiet", "--format", "json,vtu", "--output", "a"}, folder.path());
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto again = run_here({"report", "a/results.json", "--format", "vtu", "--output", "b"}, folder.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto results = reports::read_results(folder / "a/results.json");
+  ASSERT_EQ(results.cells.size(), 2u);
+  const std::string collection = contents(folder / "a/bar_wave-scene.pvd");
+  for (const auto &cell : results.cells) {
+    ASSERT_EQ(cell.series.size(), 2u) << cell.label;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto &series = cell.series[k];
+      ASSERT_TRUE(series.time);
+      EXPECT_NEAR(*series.time, 5e-6 * static_cast<double>(k + 1), cell.quantities.at("time_step"));
+      const auto vtu = fs::path(series.file).replace_extension(".vtu").string();
+      EXPECT_NE(collection.find(fmt::format("timestep=\"{}\"", *series.time)), std::string::npos) << collection;
+      EXPECT_NE(collection.find("file=\"" + vtu + "\""), std::string::npos) << collection;
+      EXPECT_EQ(contents(folder / "a" / vtu), contents(folder / "b" / vtu));
+      const auto table = reports::parse_number_table(contents(folder / "a" / series.file));
+      const auto read = read_by_vtk(folder / "a" / vtu, folder);
+      EXPECT_EQ(read.n_points, table.n_rows());
+      EXPECT_EQ(read.n_points, cell.method == "fem" ? 99u : 100u);
+      for (const std::string name : {"stress", "exact_stress"}) {
+        ASSERT_TRUE(read.ranges.contains(name)) << series.file;
+        const auto &values = table.columns[table.find(name)];
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        const double printed = 1e-5 * std::max(std::abs(*low), std::abs(*high)); // six digits are printed
+        EXPECT_NEAR(read.ranges.at(name)[0].first, *low, printed);
+        EXPECT_NEAR(read.ranges.at(name)[0].second, *high, printed);
+      }
+    }
+  }
+  EXPECT_EQ(collection, contents(folder / "b/bar_wave-scene.pvd"));
 }
 
 /// Uniform strain: every field is known everywhere.

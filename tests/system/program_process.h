@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -72,6 +73,7 @@ public:
     for (auto &word : words)
       argv.push_back(word.data());
     argv.push_back(nullptr);
+    prctl(PR_SET_CHILD_SUBREAPER, 1); // what outlives the program is buried here, not whenever init gets to it
     child_ = fork();
     if (child_ < 0)
       throw std::runtime_error("cannot start a process");
@@ -121,6 +123,8 @@ public:
   /// After wait(): true once no process of the group is left, at the latest after `seconds`.
   bool left_nobody(double seconds) const {
     for (int i = 0; i < static_cast<int>(seconds / 0.02); ++i) {
+      while (waitpid(-group_, nullptr, WNOHANG) > 0) {
+      }
       if (kill(-group_, 0) != 0)
         return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -183,7 +183,7 @@ private:
     for (const double x : places)
       exact.push_back(pulse_.stress_at(x, bar.time()));
     rod::write_series(directory, fmt::format("stress-{}", index), {"x", "stress", "exact_stress"},
-                      {places, bar.stress(), exact}, cell);
+                      {places, bar.stress(), exact}, cell, bar.time());
   }
 
   void run_stretched(const scene::MethodRequest &request, int n, study::TimeServices &services,

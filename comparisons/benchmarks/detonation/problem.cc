@@ -210,7 +210,7 @@ private:
     }
     rod::write_series(directory, fmt::format("profile-{}", index),
                       {"x", "density", "pressure", "velocity", "exact_density", "exact_pressure", "exact_velocity"},
-                      columns, cell);
+                      columns, cell, gas.time());
   }
 
   const scene::Scene &scene_;

@@ -129,14 +129,14 @@ void add_slopes(std::vector<reports::Cell> &cells) {
 
 void write_series(const std::filesystem::path &directory, const std::string &name,
                   const std::vector<std::string> &headings, const std::vector<std::vector<double>> &columns,
-                  reports::Cell &cell) {
+                  reports::Cell &cell, std::optional<double> time) {
   std::string text = fmt::format("{}\n", fmt::join(headings, ","));
   for (std::size_t i = 0; i < columns.front().size(); ++i)
     for (std::size_t c = 0; c < columns.size(); ++c)
       text += fmt::format("{}{}", columns[c][i], c + 1 < columns.size() ? "," : "\n");
   const std::string file = study::series_file(cell, name);
   reports::write_file_atomically(directory / file, text);
-  cell.series.push_back({name, file});
+  cell.series.push_back({name, file, time});
 }
 
 } // namespace comparisons::benchmarks::rod

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,9 +43,10 @@ double largest_difference(std::span<const double> a, std::span<const double> b);
 void add_slopes(std::vector<reports::Cell> &cells);
 
 /// Writes columns as CSV below `directory` and enters it in the cell.
+/// @param time of the state that the columns hold, s; its first column is then the place "x"
 /// @throws reports::OutputError
 void write_series(const std::filesystem::path &directory, const std::string &name,
                   const std::vector<std::string> &headings, const std::vector<std::vector<double>> &columns,
-                  reports::Cell &cell);
+                  reports::Cell &cell, std::optional<double> time = {});
 
 } // namespace comparisons::benchmarks::rod

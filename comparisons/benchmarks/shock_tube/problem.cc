@@ -179,7 +179,7 @@ private:
     rod::write_series(directory, fmt::format("profile-{}", index),
                       {"x", "density", "pressure", "velocity", "energy", "exact_density", "exact_pressure",
                        "exact_velocity", "exact_energy"},
-                      columns, cell);
+                      columns, cell, time);
   }
 
   const scene::Scene &scene_;

@@ -142,6 +142,7 @@ TEST(ResultsJson, RoundTripKeepsEveryDigit) {
   EXPECT_EQ(back.cells[0].errors.at("displacement_l2_relative"), 0.1 + 0.2);
   EXPECT_EQ(back.machine.memory_bytes, results.machine.memory_bytes);
   EXPECT_EQ(back.cells[7].series.at(0).file, "u2_bottom.csv");
+  EXPECT_EQ(back.cells[7].series.at(0).time, 2e-6);
   EXPECT_EQ(back.published[3].statement, results.published[3].statement);
 }
 
@@ -218,6 +219,9 @@ TEST(ResultsJson, ComplaintsNameThePlace) {
   EXPECT_TRUE(contains(with("/published/0/verdict", "maybe"), "$.published[0].verdict"));
   EXPECT_TRUE(contains(with("/machine/libraries/Eigen", 3), "$.machine.libraries.Eigen"));
   EXPECT_TRUE(contains(with("/scene", "x"), "$.scene"));
+  // Reports are written beside these files: a results file must not choose a place elsewhere.
+  for (const char *file : {"/etc/passwd", "../up.csv", "series/../../up.csv", ""})
+    EXPECT_TRUE(contains(with("/cells/7/series/0/file", file), "$.cells[7].series[0].file: found")) << file;
   EXPECT_TRUE(contains(complaint(Json::array()), "$: found array"));
 }
 
