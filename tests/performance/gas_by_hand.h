@@ -50,7 +50,7 @@ public:
       rate_[i] = power(places(), i) / m_[i];
   }
 
-  void step(double dt) {
+  [[gnu::noinline]] void step(double dt) {
     const Places at = places();
     const double half = 0.5 * dt;
     for (std::size_t i = 0; i < n_; ++i) {

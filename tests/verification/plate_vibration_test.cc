@@ -154,6 +154,20 @@ TEST(PlateVibration, ExplicitStepsTakeTheSameLoads) {
   }
 }
 
+TEST(PlateVibration, KeysOfAbsentEffectsChangeNoBit) {
+  const Overrides shorter{"time.end=0.4 ms", "method.0.name=weak2"};
+  Overrides other = shorter;
+  for (const auto *key : {"problem.weight=1e9", "problem.temperature=1e4", "problem.expansion=1e-3"})
+    other.emplace_back(key);
+  const auto cells = run(read(step_load, shorter));
+  const auto with_keys = run(read(step_load, other));
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(cells[i].status, reports::Status::ok) << name_of(cells[i]);
+    EXPECT_EQ(cells[i].quantities, with_keys[i].quantities) << name_of(cells[i]);
+    EXPECT_EQ(cells[i].errors, with_keys[i].errors) << name_of(cells[i]);
+  }
+}
+
 TEST(PlateVibration, LoadsHaveNoPartInFrequencies) {
   const auto cells =
       run(read(modes("free", "9x5") + "[effects]\nelasticity = true\ninertia = true\nthermal_expansion = true\n"));
