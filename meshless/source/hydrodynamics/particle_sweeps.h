@@ -2,6 +2,8 @@
 
 #include "gas_arrays.h"
 
+#include <type_traits>
+
 /// The loops over the particles of a step. Each does all that can be done there, because a step's time is that of the
 /// arrays that it runs through; what an effect adds exists only where the effect does.
 namespace meshless::hydrodynamics {
