@@ -34,31 +34,11 @@ const std::map<std::string, Contents> &papers() {
   return contents;
 }
 
-/// The benchmarks of the design; once all exist, nothing may stay open.
-const std::vector<std::string> &benchmarks() {
-  static const std::vector<std::string> names{"function_approximation",
-                                              "smoothing_functions",
-                                              "rod_derivative",
-                                              "rod_static",
-                                              "rod_vibration",
-                                              "bar_wave",
-                                              "cantilever",
-                                              "plate_with_hole",
-                                              "shock_tube",
-                                              "detonation",
-                                              "hard_cases",
-                                              "scaling"};
-  return names;
-}
-
-struct Tree {
-  std::function<bool(const std::string &scene)> has_scene;
-  std::function<bool(const std::string &benchmark)> has_benchmark;
-};
+using HasScene = std::function<bool(const std::string &scene)>;
 
 class Checker {
 public:
-  explicit Checker(const Tree &tree) : tree_(tree) {}
+  explicit Checker(HasScene has_scene) : has_scene_(std::move(has_scene)) {}
 
   std::vector<std::string> faults(const toml::table &coverage) {
     const toml::array *items = coverage["item"].as_array();
@@ -79,7 +59,7 @@ private:
     const std::string paper = item["paper"].value_or(std::string());
     const std::string name = item["item"].value_or(std::string());
     const std::string where = fmt::format("line {}: {}, {}", item.source().begin.line, paper, name);
-    static const std::set<std::string> known{"paper", "item", "what", "scenes", "status", "planned", "kind", "why"};
+    static const std::set<std::string> known{"paper", "item", "what", "scenes", "kind", "why"};
     for (const auto &[key, value] : item)
       if (!known.contains(std::string(key.str())))
         add(fmt::format("{}: unknown key '{}'", where, key.str()));
@@ -89,11 +69,9 @@ private:
       add(where + ": 'what' is missing");
     if (!seen_[paper].insert(name).second)
       add(where + ": listed twice");
-    const int n_ways = int(item.contains("scenes")) + int(item.contains("status")) + int(item.contains("kind"));
-    if (n_ways != 1)
-      add(where + ": exactly one of 'scenes', 'status' and 'kind' is needed");
+    if (item.contains("scenes") == item.contains("kind"))
+      add(where + ": exactly one of 'scenes' and 'kind' is needed");
     check_scenes(item, where);
-    check_open(item, where);
     if (item.contains("kind") && item["kind"].value_or(std::string()) != "sketch")
       add(where + ": the only kind is \"sketch\"");
     if (item.contains("kind") == item["why"].value_or(std::string()).empty())
@@ -110,24 +88,9 @@ private:
     }
     for (const toml::node &node : *scenes) {
       const std::string scene = node.value_or(std::string());
-      if (!tree_.has_scene(scene))
+      if (!has_scene_(scene))
         add(fmt::format("{}: there is no scene '{}'", where, scene));
     }
-  }
-
-  void check_open(const toml::table &item, const std::string &where) {
-    if (!item.contains("status")) {
-      if (item.contains("planned"))
-        add(where + ": 'planned' belongs to an open item");
-      return;
-    }
-    if (item["status"].value_or(std::string()) != "open")
-      add(where + ": the only status is \"open\"");
-    const std::string planned = item["planned"].value_or(std::string());
-    if (std::find(benchmarks().begin(), benchmarks().end(), planned) == benchmarks().end())
-      add(fmt::format("{}: '{}' is no planned benchmark", where, planned));
-    if (std::all_of(benchmarks().begin(), benchmarks().end(), tree_.has_benchmark))
-      add(where + ": still open although all benchmarks exist");
   }
 
   void check_paper(const std::string &paper, const Contents &contents) {
@@ -152,7 +115,7 @@ private:
       add(fmt::format("{}: {} claims are listed, {} were counted", paper, n_claims, contents.n_claims));
   }
 
-  const Tree &tree_;
+  HasScene has_scene_;
   std::map<std::string, std::set<std::string>> seen_;
   std::vector<std::string> faults_;
 };
@@ -165,12 +128,7 @@ toml::table shipped() {
   return result ? std::move(result).table() : toml::table{};
 }
 
-/// An item that is open: a sample of one to change.
-constexpr const char *open_item = "Claim: its stability is superior to that of the cubic";
-
-Tree anything() {
-  return {[](const std::string &) { return true; }, [](const std::string &) { return false; }};
-}
+bool any_scene(const std::string &) { return true; }
 
 bool has_fault(const std::vector<std::string> &faults, const std::string &part) {
   return std::any_of(faults.begin(), faults.end(),
@@ -178,29 +136,25 @@ bool has_fault(const std::vector<std::string> &faults, const std::string &part) 
 }
 
 /// The shipped file with one change to its first item that fits.
-std::vector<std::string> faults_after(const std::string &item, const std::function<void(toml::table &)> &change,
-                                      const Tree &tree = anything()) {
+std::vector<std::string> faults_after(const std::string &item, const std::function<void(toml::table &)> &change) {
   toml::table coverage = shipped();
   for (toml::node &node : *coverage["item"].as_array())
     if (node.as_table()->at("item").value_or(std::string()) == item) {
       change(*node.as_table());
       break;
     }
-  return Checker(tree).faults(coverage);
+  return Checker(any_scene).faults(coverage);
 }
 
 } // namespace
 
-TEST(Coverage, EveryResultOfThePapersHasASceneThatExistsOrIsOpen) {
-  const Tree tree{[](const std::string &scene) { return fs::is_regular_file(benchmark_folder() / (scene + ".toml")); },
-                  [](const std::string &benchmark) { return fs::is_directory(benchmark_folder() / benchmark); }};
-  for (const std::string &fault : Checker(tree).faults(shipped()))
+TEST(Coverage, EveryResultOfThePapersHasASceneThatExists) {
+  Checker checker([](const std::string &scene) { return fs::is_regular_file(benchmark_folder() / (scene + ".toml")); });
+  for (const std::string &fault : checker.faults(shipped()))
     ADD_FAILURE() << "coverage.toml: " << fault;
 }
 
-TEST(Coverage, TheFileItselfIsComplete) {
-  EXPECT_EQ(Checker(anything()).faults(shipped()), std::vector<std::string>());
-}
+TEST(Coverage, TheFileItselfIsComplete) { EXPECT_EQ(Checker(any_scene).faults(shipped()), std::vector<std::string>()); }
 
 TEST(Coverage, EveryFaultIsSeen) {
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert_or_assign("item", "Table 9"); }),
@@ -212,7 +166,7 @@ TEST(Coverage, EveryFaultIsSeen) {
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert_or_assign("item", "Claim: x"); }),
                         "16 claims are listed, 15 were counted"));
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.erase("scenes"); }), "exactly one of"));
-  EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert("status", "open"); }), "exactly one of"));
+  EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert("kind", "sketch"); }), "exactly one of"));
   EXPECT_TRUE(
       has_fault(faults_after("Table 1", [](toml::table &t) { t.insert("scene", "x"); }), "unknown key 'scene'"));
   EXPECT_TRUE(
@@ -220,21 +174,10 @@ TEST(Coverage, EveryFaultIsSeen) {
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.erase("what"); }), "'what' is missing"));
   EXPECT_TRUE(has_fault(faults_after("Table 1", [](toml::table &t) { t.insert_or_assign("scenes", toml::array{}); }),
                         "must be a list"));
-  EXPECT_TRUE(has_fault(faults_after(open_item, [](toml::table &t) { t.insert_or_assign("planned", "x"); }),
-                        "'x' is no planned benchmark"));
-  EXPECT_TRUE(has_fault(faults_after(open_item, [](toml::table &t) { t.insert_or_assign("status", "done"); }),
-                        "the only status"));
   EXPECT_TRUE(has_fault(faults_after("Figure 1", [](toml::table &t) { t.erase("why"); }), "says why"));
 }
 
-TEST(Coverage, DanglingScenesAndOpenItemsAreSeen) {
-  Tree tree = anything();
-  tree.has_scene = [](const std::string &scene) { return scene != "cantilever/order"; };
-  EXPECT_TRUE(has_fault(Checker(tree).faults(shipped()), "there is no scene 'cantilever/order'"));
-  tree = anything();
-  tree.has_benchmark = [](const std::string &benchmark) { return benchmark != "scaling"; };
-  EXPECT_TRUE(Checker(tree).faults(shipped()).empty());
-  tree.has_benchmark = [](const std::string &) { return true; };
-  EXPECT_TRUE(has_fault(Checker(tree).faults(shipped()),
-                        std::string(open_item) + ": still open although all benchmarks exist"));
+TEST(Coverage, ADanglingSceneIsSeen) {
+  Checker checker([](const std::string &scene) { return scene != "cantilever/order"; });
+  EXPECT_TRUE(has_fault(checker.faults(shipped()), "there is no scene 'cantilever/order'"));
 }
