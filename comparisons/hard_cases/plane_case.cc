@@ -1,5 +1,6 @@
 #include "comparisons/hard_cases/plane_case.h"
 
+#include "comparisons/geometry/mesh_operations.h"
 #include "comparisons/metrics/error_indicator.h"
 #include "comparisons/problems/rectangle_grid.h"
 
@@ -91,25 +92,20 @@ double displacement_error(const methods::Solution &solution, const std::vector<P
 
 /// What the solution lets one see of its error without the exact one: into the measurement.
 void check(const methods::Solution &solution, const PlaneSetup &setup, Measurement &measurement) {
-  problems::Quadrature quadrature; // for the body force, and off the centres of cells
+  std::vector<Point2> off_centre; // where the stress of elements is not better than elsewhere
   for (const auto &cell : setup.mesh.cells) {
     Point2 centre{};
-    double twice_area = 0;
-    for (unsigned v = 0; v < cell.n_vertices; ++v) {
-      const auto &a = setup.mesh.vertices[cell.vertices[v]];
-      const auto &b = setup.mesh.vertices[cell.vertices[(v + 1) % cell.n_vertices]];
-      twice_area += a[0] * b[1] - b[0] * a[1];
+    for (unsigned v = 0; v < cell.n_vertices; ++v)
       for (std::size_t k = 0; k < 2; ++k)
-        centre[k] += a[k] / cell.n_vertices;
-    }
+        centre[k] += setup.mesh.vertices[cell.vertices[v]][k] / cell.n_vertices;
     for (unsigned v = 0; v < cell.n_vertices; ++v) {
       const auto &a = setup.mesh.vertices[cell.vertices[v]];
-      quadrature.points.push_back({.5 * (a[0] + centre[0]), .5 * (a[1] + centre[1])});
-      quadrature.weights.push_back(.5 * std::abs(twice_area) / cell.n_vertices);
+      off_centre.push_back({.5 * (a[0] + centre[0]), .5 * (a[1] + centre[1])});
     }
   }
+  const auto quadrature = geometry::cell_quadrature(setup.mesh, 4);
   const auto equilibrium = metrics::equilibrium(solution, setup.statement, quadrature);
-  measurement.indicators = metrics::error_indicators(solution, setup.statement, equilibrium, quadrature.points);
+  measurement.indicators = metrics::error_indicators(solution, setup.statement, equilibrium, off_centre);
   if (setup.statement.body_force && setup.mesh.cells.empty())
     measurement.indicators.erase("force_imbalance"); // there is nothing to integrate it with
   for (auto &doubt : metrics::doubts(measurement.indicators))

@@ -1,5 +1,6 @@
 #include "comparisons/metrics/force_balance.h"
 
+#include "comparisons/metrics/support_force.h"
 #include "comparisons/problems/boundary_quadrature.h"
 
 #include <cmath>
@@ -65,6 +66,33 @@ void integrate(const methods::Solution &solution, const problems::PlaneStatement
       result.body[k] += quadrature.weights[q] * values[q][k];
 }
 
+/// The support's force is that of the stress inside the body where one boundary alone prescribes a component, and what
+/// several prescribe is in the sum so.
+/// @returns the sum of the forces of all supports less those of `result`
+Force extract(const methods::Solution &solution, const problems::PlaneStatement &statement,
+              const BoundaryPoints &boundary, const problems::Quadrature &quadrature, Equilibrium &result) {
+  const auto total = support_force(solution, statement, boundary, quadrature);
+  Force difference{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!total[k])
+      continue;
+    difference[k] = *total[k];
+    Force *only = nullptr;
+    std::size_t n_supports = 0;
+    for (auto &[id, force] : result.boundary)
+      if (statement.conditions.at(id).displacement_prescribed[k]) {
+        difference[k] -= force[k];
+        only = &force;
+        ++n_supports;
+      }
+    if (n_supports == 1) {
+      (*only)[k] = *total[k];
+      difference[k] = 0;
+    }
+  }
+  return difference;
+}
+
 double magnitude(const Force &force) { return std::hypot(force[0], force[1]); }
 
 /// Integral of the magnitude of what is applied: prescribed components of the traction, and the body force. Loads that
@@ -120,8 +148,11 @@ Equilibrium equilibrium(const methods::Solution &solution, const problems::Plane
     result.body = own->body;
   } else
     integrate(solution, statement, boundary, quadrature, result);
-
-  Force sum = result.body;
+  Force sum{};
+  if (!solution.own_forces() && !quadrature.points.empty())
+    sum = extract(solution, statement, boundary, quadrature, result);
+  for (std::size_t k = 0; k < 2; ++k)
+    sum[k] += result.body[k];
   double all = magnitude(result.body);
   for (const auto &[id, force] : result.boundary) {
     for (std::size_t k = 0; k < 2; ++k)

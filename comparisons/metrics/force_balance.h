@@ -20,12 +20,14 @@ struct Equilibrium {
   double imbalance = 0;
 };
 
-/// Forces of a solution: by its own discrete equations if it has them (methods::ForceBalance), else reactions are the
-/// integrals of the solution's stress over the boundary and loads those of the prescribed traction and body force.
+/// Forces of a solution: by its own discrete equations if it has them (methods::ForceBalance), else loads are integrals
+/// of the prescribed traction and body force, and the sum of the supports' forces comes from the stress inside the body
+/// (support_force): it is the reaction of a boundary that alone prescribes a component. What each of several boundaries
+/// bears, and all if there is no quadrature, are integrals of the stress over the boundary.
 ///
 /// The test functions of the meshless weak forms do not sum to one, so nothing balances their forces but convergence:
 /// the imbalance is an error measure that needs no exact solution.
-/// @param quadrature for the body force; ignored without one
+/// @param quadrature over the domain
 Equilibrium equilibrium(const methods::Solution &solution, const problems::PlaneStatement &statement,
                         const problems::Quadrature &quadrature);
 

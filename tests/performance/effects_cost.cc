@@ -2,6 +2,7 @@
 // %. Both take turns in short batches on the same core, so that what else the machine does hits both; medians are
 // compared.
 
+#include "performance/turns.h"
 #include "performance/unit_bar.h"
 
 #include "meshless/linear_algebra/aligned_vector.h"
@@ -11,12 +12,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 namespace {
 
 using namespace meshless;
+using performance::median;
+using performance::Turns;
 
 constexpr double dt = 0.8;
 constexpr double viscosity = 0.05;
@@ -55,7 +57,7 @@ public:
     }
   }
 
-  void step() {
+  [[gnu::noinline]] void step() { // as the general one: what is around it moves neither
     using linear_algebra::load;
     using linear_algebra::n_lanes;
     using linear_algebra::Pack;
@@ -116,24 +118,6 @@ private:
   double time_ = 0;
 };
 
-double seconds(auto &&work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// What the turns of one size have shown.
-struct Turns {
-  std::vector<double> general, by_hand, ratio; ///< seconds a step; general over by hand
-  double difference = 0;                       ///< of the displacements, relative
-};
-
 template <int further_effects>
 void take_turns(int n, int turns, Turns &result) {
   auto options = performance::bar_options(n);
@@ -144,27 +128,9 @@ void take_turns(int n, int turns, Turns &result) {
   dynamics::ElasticBar general(options);
   BarByHand<further_effects> by_hand(n);
   const int batch = 1600000 / n; // about a millisecond
-  for (int turn = 0; turn < turns; ++turn) {
-    const auto run_general = [&] {
-      result.general.push_back(seconds([&] {
-                                 for (int s = 0; s < batch; ++s)
-                                   general.step(dt);
-                               }) /
-                               batch);
-    };
-    const auto run_hand = [&] {
-      result.by_hand.push_back(seconds([&] {
-                                 for (int s = 0; s < batch; ++s)
-                                   by_hand.step();
-                               }) /
-                               batch);
-    };
-    if (turn % 2 == 0)
-      run_general(), run_hand();
-    else
-      run_hand(), run_general();
-    result.ratio.push_back(result.general.back() / result.by_hand.back());
-  }
+  for (int turn = 0; turn < turns; ++turn)
+    result.take(
+        batch, [&] { general.step(dt); }, [&] { by_hand.step(); });
   double difference = 0;
   double largest = 0;
   for (int i = 0; i < n; ++i) {

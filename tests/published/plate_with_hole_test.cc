@@ -109,9 +109,10 @@ TEST(PlateWithHole, displacement_converges_with_the_order_of_the_basis) {
   EXPECT_GE(mean_rate("weak1 order=2"), 1.7);
   EXPECT_GE(mean_rate("weak1 order=3"), 2.5);
   EXPECT_GE(mean_rate("weak1 order=4"), 3.5);
-  // What is left of the forces is a mean of the error of stress over the supports: of its size on every level.
+  // What is left of the forces is a mean of the error of stress: below 1.2 times its norm by theory (support_force.h:
+  // the norm of the weight's gradient), and as signs alternate far below.
   for (const auto &cell : cells)
-    EXPECT_LE(cell.quantities.at("force_imbalance"), 1.2 * cell.errors.at("stress_l2_relative")) << name_of(cell);
+    EXPECT_LE(cell.quantities.at("force_imbalance"), 0.2 * cell.errors.at("stress_l2_relative")) << name_of(cell);
 }
 
 } // namespace

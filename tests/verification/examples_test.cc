@@ -18,20 +18,27 @@ scene::Scene read_example(const std::string &name, const Overrides &overrides = 
   return std::move(*result.scene);
 }
 
+/// However singular the stress at a corner is, what is left of the forces is less than the error of stress as a whole.
+void expect_balance(const reports::Cell &cell) {
+  if (cell.method == "fem") {
+    EXPECT_LT(cell.quantities.at("force_imbalance"), 1e-8);
+  } else if (cell.errors.contains("stress_l2_relative")) {
+    EXPECT_LT(cell.quantities.at("force_imbalance"), cell.errors.at("stress_l2_relative"));
+  }
+}
+
 /// The figure of every cell at the finer level is within its method's share of the known one.
 void expect_figure(const std::string &example, const std::string &quantity, double fem, double meshless) {
   const auto scene = read_example(example);
   for (const auto &cell : run(scene)) {
     SCOPED_TRACE(example + ": " + name_of(cell));
     ASSERT_EQ(cell.status, reports::Status::ok);
+    expect_balance(cell);
     // Q2 is there for comparison: its stress at a point is of second order only.
     if (cell.level != "mesh/2" || cell.label.find("element=Q2") != std::string::npos)
       continue;
     EXPECT_LT(cell.quantities.at(quantity + "_error"), cell.method == "fem" ? fem : meshless)
         << quantity << " = " << cell.quantities.at(quantity);
-    if (cell.method == "fem") {
-      EXPECT_LT(cell.quantities.at("force_imbalance"), 1e-8);
-    }
   }
 }
 
@@ -74,7 +81,8 @@ TEST(Examples, bracket) {
     SCOPED_TRACE(name_of(cell));
     ASSERT_EQ(cell.status, reports::Status::ok);
     const bool fem = cell.method == "fem";
-    EXPECT_LT(cell.quantities.at("bolt_force_error"), fem ? 1e-8 : 0.1);
+    EXPECT_LT(cell.quantities.at("bolt_force_error"), fem ? 1e-8 : 0.02);
+    expect_balance(cell);
     EXPECT_LT(l2(cell), fem ? 2e-3 : 0.1);
   }
 }

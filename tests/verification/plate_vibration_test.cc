@@ -102,6 +102,81 @@ TEST(PlateVibration, DampingLeadsToTheStaticDeflection) {
   EXPECT_EQ(fem.errors.count("energy_relative"), 0u);
 }
 
+std::string with_effect(const std::string &effect) {
+  return step_load + "[[method]]\nname = \"weak2\"\n[effects]\nelasticity = true\ninertia = true\n" + effect +
+         " = true\n";
+}
+
+void expect_motion_about(double static_deflection, double tolerance, const std::string &effect) {
+  const auto cells = run(read(with_effect(effect), {"problem.shear=0", "time.end=8 ms", "method.0.name=hybrid",
+                                                    "method.2.element=Q1", "method.2.levels=[\"41x9\"]"}));
+  EXPECT_EQ(find(cells, "strong", "21x5").status, reports::Status::refused);
+  for (const auto *label : {"fem", "weak2"}) {
+    const auto &cell = find(cells, label, "21x5");
+    ASSERT_EQ(cell.status, reports::Status::ok) << name_of(cell);
+    EXPECT_NEAR(cell.quantities.at("static_deflection") / static_deflection, 1, tolerance) << effect;
+    // One or two swings about the rest position; what higher modes blur.
+    EXPECT_LT(error_of(cell, "mean_deflection_relative"), 0.02) << name_of(cell);
+    // The loads' work is that of the equations for elements; weak2 has no energy of its own.
+    EXPECT_LT(error_of(cell, "energy_relative"), cell.method == "fem" ? 1e-10 : 0.05) << name_of(cell);
+  }
+}
+
+TEST(PlateVibration, WeightActsFromOneMomentOn) {
+  // Timoshenko's beam, shear factor 5/6: w L^4 / (8 E I) + w L^2 / (2 k G A), of slenderness 5.
+  const double w = 77e3 * 0.2;
+  const double bending = w / (8 * 210e9 * 0.2 * 0.2 * 0.2 / 12);
+  const double shearing = w / (2 * 5.0 / 6 * 210e9 / 2.6 * 0.2);
+  expect_motion_about(-bending - shearing, 0.01, "body_force");
+}
+
+TEST(PlateVibration, ATemperatureThatRisesAcrossBends) {
+  // Without stress: curvature a = alpha T / W, u2 = a (y^2 - W^2 / 4 - x^2) / 2 about the middle; the clamp hinders
+  // what is within a width of it, a part of (W / L)^2.
+  const double a = 1.2e-5 * 100 / 0.2;
+  expect_motion_about(-0.5 * a, 0.2 * 0.2, "thermal_expansion");
+}
+
+TEST(PlateVibration, ExplicitStepsTakeTheSameLoads) {
+  for (const auto *effect : {"body_force", "thermal_expansion"}) {
+    // Penalties of the weak form limit its explicit step to .022 spacings over wave speed. At this time the waves of
+    // the sudden load cross the plate, which meshes of 5 and 9 points across carry to some per cent.
+    const auto cells = run(read(with_effect(effect), {"problem.shear=0", "time.end=0.2 ms", "time.cfl=0.02",
+                                                      "method.4.integration=central_difference", "method.2.element=Q1",
+                                                      "method.2.levels=[\"41x9\"]"}));
+    const auto &fem = find(cells, "fem", "21x5");
+    for (const auto &[label, level] : {std::pair{"explicit", "41x9"}, std::pair{"weak2", "21x5"}}) {
+      const auto &cell = find(cells, label, level);
+      ASSERT_EQ(cell.status, reports::Status::ok) << name_of(cell);
+      EXPECT_NEAR(cell.quantities.at("last_deflection") / fem.quantities.at("last_deflection"), 1, 0.1)
+          << name_of(cell) << " " << effect;
+    }
+  }
+}
+
+TEST(PlateVibration, KeysOfAbsentEffectsChangeNoBit) {
+  const Overrides shorter{"time.end=0.4 ms", "method.0.name=weak2"};
+  Overrides other = shorter;
+  for (const auto *key : {"problem.weight=1e9", "problem.temperature=1e4", "problem.expansion=1e-3"})
+    other.emplace_back(key);
+  const auto cells = run(read(step_load, shorter));
+  const auto with_keys = run(read(step_load, other));
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(cells[i].status, reports::Status::ok) << name_of(cells[i]);
+    EXPECT_EQ(cells[i].quantities, with_keys[i].quantities) << name_of(cells[i]);
+    EXPECT_EQ(cells[i].errors, with_keys[i].errors) << name_of(cells[i]);
+  }
+}
+
+TEST(PlateVibration, LoadsHaveNoPartInFrequencies) {
+  const auto cells =
+      run(read(modes("free", "9x5") + "[effects]\nelasticity = true\ninertia = true\nthermal_expansion = true\n"));
+  for (const auto &cell : cells) {
+    EXPECT_EQ(cell.status, reports::Status::refused) << name_of(cell);
+    EXPECT_NE(cell.reason.find("thermal_expansion"), std::string::npos) << cell.reason;
+  }
+}
+
 TEST(PlateVibration, BadScenesAreRefused) {
   EXPECT_ANY_THROW(read(step_load, {"method.2.mass=consistent"}));
   EXPECT_ANY_THROW(read(step_load, {"study.levels=[\"2x2\"]"}));

@@ -2,6 +2,7 @@
 
 #include "verification/scene_runs.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -88,6 +89,46 @@ TEST(ThermalScene, APlateHeldAlongOneAxisHasTheStressOfTheory) {
     EXPECT_LT(l2(cell), 1e-10) << name_of(cell);
     EXPECT_LT(stress_l2(cell), 1e-9) << name_of(cell);
   }
+}
+
+// Temperatures whose gradient is not zero: the divergence of the thermal stress inside, its traction on the boundary.
+
+TEST(ThermalScene, ALinearTemperatureBendsWithoutStress) {
+  // e = a x, a = 1.2e-5 * 100: u1 = a (x^2 - y^2) / 2, u2 = a x y, of second degree and without stress. The value of
+  // the reference's stress is the scale of its error.
+  const std::string bent = "u1 = \"0.6e-3*(x*x-y*y)\"\nu2 = \"1.2e-3*x*y\"\n";
+  expect_exact(scene("[[boundary]]\ngroup = \"left\"\n" + bent,
+                     "[effects.thermal_expansion]\nexpansion = 1.2e-5\ntemperature = \"100*x\"\n",
+                     bent + "s11 = \"1e-3*x\"\ns22 = 0\ns12 = 0\n", "plane stress"));
+}
+
+TEST(ThermalScene, BodyForceAndTractionHoldAPlateOfAnyTemperature) {
+  // u1 = a x y, u2 = 0 at the temperature T = 100 (x^2 - x y + 2 y^2), plane stress: with beta = E / (1 - nu) and
+  // e = alpha T the stress is s11 = E / (1 - nu^2) a y - beta e, s22 = nu of the first part - beta e, s12 = mu a x, and
+  // the body force -s11,1 - s12,2 = beta e,1; -s12,1 - s22,2 = beta e,2 - (mu + nu E / (1 - nu^2)) a.
+  constexpr double E = 200e9;
+  constexpr double nu = 0.3;
+  constexpr double a = 1e-3;
+  const double thermal = E / (1 - nu) * 1.2e-3; // beta alpha 100
+  const double axial = E / (1 - nu * nu);
+  const double mu = E / (2 * (1 + nu));
+  const auto number = [](double value) { return fmt::format("({:.17g})", value); };
+  const auto temperature = number(thermal) + "*(x*x-x*y+2*y*y)";
+  const auto s11 = number(axial * a) + "*y-" + temperature;
+  const auto s22 = number(nu * axial * a) + "*y-" + temperature;
+  const auto s12 = number(mu * a) + "*x";
+  const auto traction = [&](const char *group, const std::string &x, const std::string &y) {
+    return fmt::format("[[boundary]]\ngroup = \"{}\"\ntraction = [\"{}\", \"{}\"]\n", group, x, y);
+  };
+  const std::string field = fmt::format("u1 = \"{:.17g}*x*y\"\nu2 = 0\n", a);
+  const std::string boundaries = "[[boundary]]\ngroup = \"left\"\n" + field + traction("right", s11, s12) +
+                                 traction("top", s12, s22) + traction("bottom", "-(" + s12 + ")", "-(" + s22 + ")");
+  const std::string effects =
+      fmt::format("[effects.thermal_expansion]\nexpansion = 1.2e-5\ntemperature = \"100*(x*x-x*y+2*y*y)\"\n"
+                  "[effects.body_force]\nforce = [\"{}*(2*x-y)\", \"{}*(4*y-x)-{}\"]\n",
+                  number(thermal), number(thermal), number((mu + nu * axial) * a));
+  const std::string reference = field + fmt::format("s11 = \"{}\"\ns22 = \"{}\"\ns12 = \"{}\"\n", s11, s22, s12);
+  expect_exact(scene(boundaries, effects, reference, "plane stress"));
 }
 
 TEST(ThermalScene, BadTablesAreRefused) {

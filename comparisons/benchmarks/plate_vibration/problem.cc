@@ -1,9 +1,9 @@
 #include "comparisons/benchmarks/plate_vibration/problem.h"
 
+#include "comparisons/benchmarks/plate_vibration/loads.h"
 #include "comparisons/benchmarks/plate_vibration/plates.h"
 #include "comparisons/benchmarks/rod/measurement.h"
 #include "comparisons/metrics/memory.h"
-#include "comparisons/problems/boundary_quadrature.h"
 #include "comparisons/problems/rectangle_grid.h"
 #include "comparisons/scene/time_keys.h"
 
@@ -106,13 +106,8 @@ public:
     for (int id = 0; id < 4; ++id)
       statement_.conditions[id] =
           supports_ == "clamped" || (supports_ == "left" && id == 0) ? clamped : problems::BoundaryCondition{};
-    if (transient_) {
-      const double shear = variant.parameters.real("shear");
-      statement_.conditions[1].traction = [shear](std::span<const Point2>, std::span<const Vector2>,
-                                                  std::span<Vector2> values) {
-        std::fill(values.begin(), values.end(), Vector2{0, shear});
-      };
-    }
+    if (transient_)
+      add_loads(scene, variant.parameters, statement_);
     if (const auto found = scene.effect_parameters.find("damping"); found != scene.effect_parameters.end())
       damping_ = found->second.real("rate");
   }
@@ -142,12 +137,16 @@ public:
         const Point2 at = tip();
         solution->evaluate("displacement", {&at, 1}, u);
         static_deflection_ = u[1];
-        static_work_ = 2 * solution->own_strain_energy().value_or(0);
+        static_work_ = static_work(*solution, grid.quadrature());
       }
   }
 
   void run(const scene::MethodRequest &request, const scene::Level &level, bool with_errors,
            const std::filesystem::path &directory, reports::Cell &cell) const override {
+    if (const auto effect = effect_with_load(scene_); effect && !transient_)
+      throw methods::Refused(fmt::format("{} is a load, which has no part in natural frequencies; remove the effect or "
+                                         "set study.analysis = \"transient\"",
+                                         *effect));
     prepare();
     const metrics::PeakMemory memory;
     const auto grid = grid_of(level);
@@ -183,6 +182,20 @@ private:
     return wave_speed_ / std::max(upper_[0], upper_[1]) * slenderness;
   }
   Point2 tip() const { return {upper_[0], 0.5 * upper_[1]}; }
+
+  /// Of the loads at rest, twice the strain energy.
+  double static_work(const methods::Solution &solution, const problems::Quadrature &inside) const {
+    if (!statement_.thermal_strain)
+      return 2 * solution.own_strain_energy().value_or(0);
+    Watch loads;
+    add_forces(scene_, variant_.parameters, statement_, inside, loads);
+    std::vector<double> u(2 * loads.force_points.size());
+    solution.evaluate("displacement", loads.force_points, u);
+    double work = 0;
+    for (std::size_t q = 0; q < loads.forces.size(); ++q)
+      work += loads.forces[q][0] * u[2 * q] + loads.forces[q][1] * u[2 * q + 1];
+    return work;
+  }
 
   problems::RectangleGrid grid_of(const scene::Level &level) const {
     std::array<int, 2> n{};
@@ -268,11 +281,7 @@ private:
     watch.step_unit = unit(grid);
     watch.least_work = static_work_;
     watch.damping = damping_;
-    const auto edges = problems::boundary_quadrature(statement_);
-    const auto &right = edges.at(1);
-    watch.force_points = right.points;
-    for (const double weight : right.weights)
-      watch.forces.push_back({0, weight * variant_.parameters.real("shear")});
+    add_forces(scene_, variant_.parameters, statement_, watch.quadrature, watch);
     const auto plate = evolution(solve_request, request.name, watch);
     study::TimeServices services;
     services.progress = progress();
@@ -413,7 +422,7 @@ std::vector<scene::MethodDescription> descriptions() {
     if (method.description.name == "mixed")
       continue; // has no equations of motion
     auto description = method.description;
-    description.effects = {"elasticity", "inertia", "damping"};
+    description.effects = {"elasticity", "inertia", "damping", "body_force", "thermal_expansion"};
     description.parameters.push_back({.name = "integration",
                                       .type = Type::choice,
                                       .choices = {"newmark", "central_difference"},
@@ -441,29 +450,28 @@ std::vector<scene::MethodDescription> descriptions() {
 
 std::vector<scene::Declaration> problem_keys() {
   const scene::Range positive{.lower = 0, .lower_open = true};
-  return {{.name = "supports",
-           .type = Type::choice,
-           .choices = {"free", "clamped", "left"},
-           .default_value = "free",
-           .meaning = "what is held: nothing, all four sides, the left side"},
-          {.name = "length",
-           .dimension = scene::dimensions::length,
-           .range = positive,
-           .default_value = 2.0,
-           .meaning = "length along x, m"},
-          {.name = "width",
-           .dimension = scene::dimensions::length,
-           .range = positive,
-           .default_value = 1.0,
-           .meaning = "width along y, m"},
-          {.name = "shear",
-           .dimension = scene::dimensions::pressure,
-           .default_value = 1e6,
-           .meaning = "traction along y on the right side from t = 0 on, Pa; in a transient analysis"},
-          {.name = "jitter",
-           .range = {.lower = 0, .upper = 0.49},
-           .default_value = 0.0,
-           .meaning = "largest random move of a particle or vertex, in spacings"}};
+  std::vector<scene::Declaration> keys{{.name = "supports",
+                                        .type = Type::choice,
+                                        .choices = {"free", "clamped", "left"},
+                                        .default_value = "free",
+                                        .meaning = "what is held: nothing, all four sides, the left side"},
+                                       {.name = "length",
+                                        .dimension = scene::dimensions::length,
+                                        .range = positive,
+                                        .default_value = 2.0,
+                                        .meaning = "length along x, m"},
+                                       {.name = "width",
+                                        .dimension = scene::dimensions::length,
+                                        .range = positive,
+                                        .default_value = 1.0,
+                                        .meaning = "width along y, m"},
+                                       {.name = "jitter",
+                                        .range = {.lower = 0, .upper = 0.49},
+                                        .default_value = 0.0,
+                                        .meaning = "largest random move of a particle or vertex, in spacings"}};
+  for (auto &key : load_keys())
+    keys.push_back(std::move(key));
+  return keys;
 }
 
 scene::BenchmarkDescription description() {

@@ -92,7 +92,11 @@ public:
     const double c = std::sqrt(tube_.gamma * std::max(tube_.left.pressure, tube_.right.pressure) /
                                std::max({tube_.left.density, tube_.right.density, 1e-300}));
     const double steps = time_.step ? time_.end / *time_.step : time_.end * 3 * c * n / tube_.half_length / time_.cfl;
-    return {.n_points = n, .n_dofs = 3 * n, .bytes = 1000 * n + 2e5, .seconds = steps * n * (fem ? 2e-7 : 1e-7)};
+    const double functions = fem && request.parameters.text("element") == "P1" ? 2 : 1;
+    return {.n_points = n,
+            .n_dofs = 3 * n * functions,
+            .bytes = 1000 * n + 2e5,
+            .seconds = steps * n * (fem ? 2e-7 : 1e-7)};
   }
 
 private:

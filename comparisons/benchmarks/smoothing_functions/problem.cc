@@ -5,6 +5,7 @@
 
 #include "meshless/kernels/consistency.h"
 #include "meshless/kernels/constructing.h"
+#include "meshless/kernels/stress_growth.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <fmt/format.h>
@@ -156,6 +157,15 @@ public:
       cell.seconds["total"] = {seconds, seconds, seconds};
       return;
     }
+    if (request.name == "stability") {
+      const auto kernel = kernels::smoothing_function(kernel_of(request.parameters), 1);
+      const auto growth = kernels::stress_growth(kernel, request.parameters.real("smoothing_length"));
+      cell.quantities["growth_in_tension"] = growth.tension;
+      cell.quantities["growth_in_compression"] = growth.compression;
+      const double seconds = watch.lap();
+      cell.seconds["total"] = {seconds, seconds, seconds};
+      return;
+    }
     const auto function = make(request, cell);
     const double total = watch.lap();
     cell.dimension = 1;
@@ -275,7 +285,14 @@ std::vector<scene::MethodDescription> method_descriptions() {
         .default_value = "boundary",
         .meaning = "where the sums are taken"}});
   discrete.check = kernel.check;
-  return {kernel, constructed, as_printed, discrete};
+  scene::MethodDescription stability;
+  stability.name = "stability";
+  stability.meaning = "growth of perturbations of a row of particles under stress (1D; Swegle, Hicks & Attaway 1995)";
+  stability.parameters = kernel.parameters;
+  stability.parameters.push_back(
+      {.name = "smoothing_length", .range = {.lower = 0.5}, .default_value = 1.0, .meaning = "h over the spacing"});
+  stability.check = kernel.check;
+  return {kernel, constructed, as_printed, discrete, stability};
 }
 
 } // namespace

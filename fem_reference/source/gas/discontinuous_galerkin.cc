@@ -1,5 +1,7 @@
 #include "fem_reference/gas/discontinuous_galerkin.h"
 
+#include "discretisation.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,36 +27,37 @@ Conserved sum(const Conserved &a, double factor, const Conserved &b) {
 } // namespace
 
 DiscontinuousGalerkin::DiscontinuousGalerkin(const Tube &tube, int degree)
-    : degree_(degree), gamma_(tube.gamma), left_(tube.left),
-      width_((tube.right - tube.left) / static_cast<double>(tube.n_cells)), boundaries_(tube.boundaries) {
+    : degree_(degree), gamma_(tube.gamma), boundaries_(tube.boundaries) {
   if (degree != 0 && degree != 1)
     throw std::invalid_argument(fmt::format("degree {}; 0 and 1 are allowed", degree));
   if (tube.n_cells < 1 || !(tube.right > tube.left) || !(tube.gamma > 1))
     throw std::invalid_argument("a tube needs a cell, a length and gamma > 1");
-  for (std::size_t i = 0; i < tube.n_cells; ++i)
-    centres_.push_back(left_ + (static_cast<double>(i) + 0.5) * width_);
-  std::vector<Primitive> states(tube.n_cells);
-  tube.initial(centres_, states);
-  for (const auto &state : states)
-    mean_.push_back(conserved(state));
-  mean_rate_.resize(tube.n_cells);
-  mean_stage_.resize(tube.n_cells);
-  fluxes_.resize(tube.n_cells + 1);
-  if (degree == 1) {
-    slope_.resize(tube.n_cells);
-    slope_rate_.resize(tube.n_cells);
-    slope_stage_.resize(tube.n_cells);
+  const Discretisation discretisation(tube, degree);
+  ends_ = discretisation.ends;
+  centres_ = discretisation.centres;
+  inverse_mass_ = discretisation.inverse_mass;
+  traces_ = discretisation.traces;
+  point_values_ = discretisation.point_values;
+  gradient_weights_ = discretisation.gradient_weights;
+  width_ = ends_[1] - ends_[0];
+  for (const auto &coefficients : discretisation.initial) {
+    mean_.push_back(coefficients[0]);
+    if (degree == 1)
+      slope_.push_back(coefficients[1]);
   }
+  mean_rate_.resize(mean_.size());
+  mean_stage_.resize(mean_.size());
+  slope_rate_.resize(slope_.size());
+  slope_stage_.resize(slope_.size());
+  fluxes_.resize(mean_.size() + 1);
   require_gas();
+  if (degree == 1)
+    limit(mean_, slope_);
 }
 
 Primitive DiscontinuousGalerkin::primitive(const Conserved &u) const {
   const double v = u[1] / u[0];
   return {u[0], v, (gamma_ - 1) * (u[2] - 0.5 * u[1] * v)};
-}
-
-Conserved DiscontinuousGalerkin::conserved(const Primitive &w) const {
-  return {w.density, w.density * w.velocity, w.pressure / (gamma_ - 1) + 0.5 * w.density * w.velocity * w.velocity};
 }
 
 Conserved DiscontinuousGalerkin::flux(const Conserved &u) const {
@@ -110,37 +113,41 @@ double DiscontinuousGalerkin::stable_step() const {
   return width_ / fastest / (2 * degree_ + 1);
 }
 
-/// width d(mean)/dt = -(F_right - F_left);  width / 6 d(slope)/dt 2 = ... in xi:
-///   d(slope)/dt = 3 / width (integral of f over xi - (F_right + F_left)).
+/// M_kk du_k/dt = integral of phi_k,x f - [phi_k F].
 void DiscontinuousGalerkin::rates(const Cells &mean, const Cells &slope) {
   const std::size_t n = mean.size();
-  const auto trace = [&](std::size_t i, double side) { return degree_ == 1 ? sum(mean[i], side, slope[i]) : mean[i]; };
-  fluxes_[0] = hllc(outside(trace(0, -1), boundaries_[0]), trace(0, -1));
+  const auto at_end = [&](std::size_t i, std::size_t side) {
+    return degree_ == 1 ? sum(mean[i], traces_[side], slope[i]) : mean[i];
+  };
+  fluxes_[0] = hllc(outside(at_end(0, 0), boundaries_[0]), at_end(0, 0));
   for (std::size_t i = 1; i < n; ++i)
-    fluxes_[i] = hllc(trace(i - 1, 1), trace(i, -1));
-  fluxes_[n] = hllc(trace(n - 1, 1), outside(trace(n - 1, 1), boundaries_[1]));
-  const double gauss = 1 / std::sqrt(3.0);
+    fluxes_[i] = hllc(at_end(i - 1, 1), at_end(i, 0));
+  fluxes_[n] = hllc(at_end(n - 1, 1), outside(at_end(n - 1, 1), boundaries_[1]));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < 3; ++k)
-      mean_rate_[i][k] = -(fluxes_[i + 1][k] - fluxes_[i][k]) / width_;
+      mean_rate_[i][k] = inverse_mass_[i][0] * (fluxes_[i][k] - fluxes_[i + 1][k]);
     if (degree_ == 0)
       continue;
-    const Conserved before = flux(sum(mean[i], -gauss, slope[i]));
-    const Conserved after = flux(sum(mean[i], gauss, slope[i]));
+    const Conserved before = flux(sum(mean[i], point_values_[0], slope[i]));
+    const Conserved after = flux(sum(mean[i], point_values_[1], slope[i]));
     for (std::size_t k = 0; k < 3; ++k)
-      slope_rate_[i][k] = 3 / width_ * (before[k] + after[k] - fluxes_[i + 1][k] - fluxes_[i][k]);
+      slope_rate_[i][k] = inverse_mass_[i][1] * (gradient_weights_[0] * before[k] + gradient_weights_[1] * after[k] +
+                                                 traces_[0] * fluxes_[i][k] - traces_[1] * fluxes_[i + 1][k]);
   }
 }
 
 void DiscontinuousGalerkin::limit(const Cells &mean, Cells &slope) const {
   const std::size_t n = mean.size();
+  // Up to three quarters of the difference of two means is reached at a cell's end.
+  const double share = 0.75 / traces_[1];
   for (std::size_t i = 0; i < n; ++i) {
     const Conserved before = i > 0 ? mean[i - 1] : outside(mean[i], boundaries_[0]);
     const Conserved after = i + 1 < n ? mean[i + 1] : outside(mean[i], boundaries_[1]);
-    for (std::size_t k = 0; k < 3; ++k) // differences of means are twice the slope in xi
-      slope[i][k] = minmod(slope[i][k], 0.75 * (mean[i][k] - before[k]), 0.75 * (after[k] - mean[i][k]));
+    for (std::size_t k = 0; k < 3; ++k)
+      slope[i][k] = minmod(slope[i][k], share * (mean[i][k] - before[k]), share * (after[k] - mean[i][k]));
     // Where a trace would be no gas the slopes shrink until it is one.
-    for (int halving = 0; halving < 60 && !(is_gas(sum(mean[i], 1, slope[i])) && is_gas(sum(mean[i], -1, slope[i])));
+    for (int halving = 0;
+         halving < 60 && !(is_gas(sum(mean[i], traces_[1], slope[i])) && is_gas(sum(mean[i], traces_[0], slope[i])));
          ++halving)
       for (double &s : slope[i])
         s *= 0.5;
@@ -182,10 +189,11 @@ void DiscontinuousGalerkin::require_gas() const {
 
 void DiscontinuousGalerkin::evaluate(std::span<const double> places, std::span<Primitive> states) const {
   for (std::size_t p = 0; p < places.size(); ++p) {
-    const double cell = std::floor((places[p] - left_) / width_);
-    const auto i = static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(mean_.size() - 1)));
-    const double xi = 2 * (places[p] - centres_[i]) / width_;
-    states[p] = primitive(degree_ == 1 ? sum(mean_[i], xi, slope_[i]) : mean_[i]);
+    const auto behind = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, places[p]) - ends_.begin();
+    const auto i = static_cast<std::size_t>(behind - 1);
+    const double part = (places[p] - ends_[i]) / (ends_[i + 1] - ends_[i]);
+    const double linear = traces_[0] + part * (traces_[1] - traces_[0]);
+    states[p] = primitive(degree_ == 1 ? sum(mean_[i], linear, slope_[i]) : mean_[i]);
   }
 }
 
@@ -200,8 +208,8 @@ std::vector<std::pair<std::string, std::span<double>>> DiscontinuousGalerkin::st
 
 Conserved DiscontinuousGalerkin::totals() const {
   Conserved total{};
-  for (const auto &u : mean_)
-    total = sum(total, width_, u);
+  for (std::size_t i = 0; i < mean_.size(); ++i)
+    total = sum(total, ends_[i + 1] - ends_[i], mean_[i]);
   return total;
 }
 

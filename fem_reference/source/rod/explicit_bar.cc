@@ -1,9 +1,14 @@
 #include "fem_reference/rod/explicit_bar.h"
 
+#include "discretisation.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace fem_reference::rod {
@@ -15,25 +20,38 @@ constexpr std::int64_t check_interval = 50;
 } // namespace
 
 ExplicitBar::ExplicitBar(WaveBar bar) : bar_(std::move(bar)) {
-  const auto &x = bar_.vertices;
-  if (x.size() < 2)
-    throw std::invalid_argument(fmt::format("a bar needs two vertices; found {}", x.size()));
   if (!(bar_.youngs_modulus > 0) || !(bar_.density > 0))
-    throw std::invalid_argument("Young's modulus and density of a bar are positive");
+    throw InvalidInput("Young's modulus and density of a bar are positive");
   wave_speed_ = std::sqrt(bar_.youngs_modulus / bar_.density);
-  spacing_ = x.back() - x.front();
-  mass_.assign(x.size(), 0.0);
-  for (std::size_t e = 0; e + 1 < x.size(); ++e) {
-    const double length = x[e + 1] - x[e];
-    if (!(length > 0))
-      throw std::invalid_argument(fmt::format("vertex {} does not lie behind the one before it", e + 2));
-    spacing_ = std::min(spacing_, length);
-    mass_[e] += 0.5 * bar_.density * length;
-    mass_[e + 1] += 0.5 * bar_.density * length;
+  const Discretisation discretisation(bar_.vertices, 1);
+  const auto n = discretisation.numbering.n_dofs();
+  dealii::SparseMatrix<double> stiffness(discretisation.pattern);
+  dealii::SparseMatrix<double> mass(discretisation.pattern);
+  assemble_stiffness(discretisation, stiffness);
+  assemble_mass(discretisation, dealii::QGaussLobatto<1>(2), mass);
+
+  // From the left to the right, so that a step runs along arrays.
+  mass_.resize(n);
+  auto cell = discretisation.numbering.begin_active();
+  while (!cell->at_boundary(0))
+    cell = cell->neighbor(0);
+  spacing_ = std::numeric_limits<double>::max();
+  for (std::size_t e = 0;; ++e, cell = cell->neighbor(1)) {
+    const auto left = cell->vertex_dof_index(0, 0);
+    const auto right = cell->vertex_dof_index(1, 0);
+    mass_[e] = bar_.density * discretisation.half_length * mass(left, left);
+    mass_[e + 1] = bar_.density * discretisation.half_length * mass(right, right);
+    stiffness_.push_back(-bar_.youngs_modulus / discretisation.half_length * stiffness(left, right));
+    middles_.push_back(discretisation.to_global(cell->center()[0]));
+    spacing_ = std::min(spacing_, discretisation.half_length * cell->measure());
+    if (cell->at_boundary(1))
+      break;
   }
-  displacement_.assign(x.size(), 0.0);
+  for (const double m : mass_)
+    inverse_mass_.push_back(1 / m);
+  displacement_.assign(n, 0.0);
   velocity_ = displacement_;
-  force_.assign(x.size() + 1, 0.0);
+  force_.assign(n + 1, 0.0);
 }
 
 /// dt^2 w^2 + 2 dt (r + b D w^2 / c) = 4 with w = 2 c / D.
@@ -49,28 +67,34 @@ void ExplicitBar::step(double dt) {
         fmt::format("at t = {:.6g} s: the time step {:.4g} s is {:.3g} times the largest stable one", time_, dt,
                     dt / stable_step()));
   const std::size_t n = mass_.size();
-  const double modulus = bar_.youngs_modulus;
-  const double *u = displacement_.data();
+  const double *k = stiffness_.data();
+  const double *m = inverse_mass_.data();
+  double *u = displacement_.data();
   double *v = velocity_.data();
   double *f = force_.data(); // f[e + 1]: force in element e
   if (bar_.viscosity) {
     const double factor = *bar_.viscosity * wave_speed_ * bar_.density;
     for (std::size_t e = 0; e + 1 < n; ++e)
-      f[e + 1] = modulus * (u[e + 1] - u[e]) / (bar_.vertices[e + 1] - bar_.vertices[e]) + factor * (v[e + 1] - v[e]);
+      f[e + 1] = k[e] * (u[e + 1] - u[e]) + factor * (v[e + 1] - v[e]);
   } else
     for (std::size_t e = 0; e + 1 < n; ++e)
-      f[e + 1] = modulus * (u[e + 1] - u[e]) / (bar_.vertices[e + 1] - bar_.vertices[e]);
+      f[e + 1] = k[e] * (u[e + 1] - u[e]);
   const double load = bar_.right_stress ? bar_.right_stress(time_ - 0.5 * dt, time_ + 0.5 * dt) : 0;
   f[n] = load;
   const double last_before = v[n - 1];
-  if (bar_.damping)
+  const auto advance = [=](std::size_t i, double kept) {
+    const double after = kept * v[i] + dt * m[i] * (f[i + 1] - f[i]);
+    v[i] = after;
+    u[i] += dt * after;
+  };
+  if (bar_.damping) {
+    const double kept = 1 - dt * *bar_.damping;
     for (std::size_t i = 0; i < n; ++i)
-      v[i] *= 1 - dt * *bar_.damping;
-  for (std::size_t i = 0; i < n; ++i)
-    v[i] += dt / mass_[i] * (f[i + 1] - f[i]);
+      advance(i, kept);
+  } else
+    for (std::size_t i = 0; i < n; ++i)
+      advance(i, 1);
   work_ += load * dt * 0.5 * (last_before + v[n - 1]);
-  for (std::size_t i = 0; i < n; ++i)
-    displacement_[i] += dt * v[i];
   time_ += dt;
   ++steps_;
   if (steps_ % check_interval == 0)
@@ -83,17 +107,9 @@ void ExplicitBar::step(double dt) {
 
 std::vector<double> ExplicitBar::stress() const {
   std::vector<double> sigma;
-  for (std::size_t e = 0; e + 1 < displacement_.size(); ++e)
-    sigma.push_back(bar_.youngs_modulus * (displacement_[e + 1] - displacement_[e]) /
-                    (bar_.vertices[e + 1] - bar_.vertices[e]));
+  for (std::size_t e = 0; e < stiffness_.size(); ++e) // E u,x, for a cross section of one
+    sigma.push_back(stiffness_[e] * (displacement_[e + 1] - displacement_[e]));
   return sigma;
-}
-
-std::vector<double> ExplicitBar::middles() const {
-  std::vector<double> x;
-  for (std::size_t e = 0; e + 1 < bar_.vertices.size(); ++e)
-    x.push_back(0.5 * (bar_.vertices[e] + bar_.vertices[e + 1]));
-  return x;
 }
 
 double ExplicitBar::energy() const {
@@ -102,7 +118,7 @@ double ExplicitBar::energy() const {
   for (std::size_t i = 0; i < mass_.size(); ++i)
     sum += 0.5 * mass_[i] * velocity_[i] * velocity_[i];
   for (std::size_t e = 0; e < sigma.size(); ++e)
-    sum += 0.5 * sigma[e] * sigma[e] / bar_.youngs_modulus * (bar_.vertices[e + 1] - bar_.vertices[e]);
+    sum += 0.5 * sigma[e] * sigma[e] / stiffness_[e];
   return sum;
 }
 

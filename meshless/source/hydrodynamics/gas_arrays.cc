@@ -129,28 +129,17 @@ void GasArrays::copy_images() {
     pressure_term[image] = pressure_term[source];
     sound_speed[image] = sound_speed[source];
     predicted_energy[image] = predicted_energy[source];
+    force[image] = compression[image] = 0;
+    if (viscous_work.size() > 0)
+      viscous_work[image] = 0;
+    if (heat.size() > 0)
+      heat[image] = 0;
   });
   reverse_images(predicted_velocity);
 }
 
 void GasArrays::reverse_images(Field &of) const {
   for_images([&](std::size_t image, std::size_t source, std::size_t) { of[image] = -of[source]; });
-}
-
-void GasArrays::form_rates(const GasOptions &options) {
-  for (std::size_t i = begin_; i < end_; ++i)
-    energy_rate[i] = pressure_term[i] * compression[i];
-  if (options.viscosity)
-    for (std::size_t i = begin_; i < end_; ++i)
-      energy_rate[i] += viscous_work[i];
-  if (options.conduction)
-    for (std::size_t i = begin_; i < end_; ++i)
-      energy_rate[i] += heat[i];
-  for (std::size_t i = begin_; i < end_; ++i)
-    energy_rate[i] /= mass[i];
-  if (options.density == DensityRule::continuity)
-    for (std::size_t i = begin_; i < end_; ++i)
-      density_rate[i] = density[i] * density[i] * compression[i] / mass[i];
 }
 
 dynamics::State GasArrays::state(const GasOptions &options) {

@@ -22,16 +22,7 @@ public:
   const double *data() const { return values_.empty() ? nullptr : values_.data(); }
   std::size_t size() const { return values_.size(); }
 
-  void zero() { std::fill(values_.begin(), values_.end(), 0.0); }
   void copy(const Field &other) { std::copy(other.values_.begin(), other.values_.end(), values_.begin()); }
-  void add(double factor, const Field &other) {
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      values_[i] += factor * other.values_[i];
-  }
-  void set_sum(const Field &a, double factor, const Field &b) {
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      values_[i] = a.values_[i] + factor * b.values_[i];
-  }
 
 private:
   std::vector<double> values_;
@@ -54,32 +45,9 @@ public:
 
   /// Positions, masses, lengths and densities of the images; false if there is no room for them.
   bool place_images(const GasOptions &options, double reach);
-  /// What the force pass reads of the images beside that.
+  /// What the force pass reads of the images beside that; their own sums start at zero.
   void copy_images();
   void reverse_images(Field &of) const;
-
-  template <typename Law>
-  void apply(const Law &law) {
-    using namespace internal;
-    for (std::size_t i = begin_; i < end_; i += n_lanes) {
-      const Pack rho = load(&density[i]);
-      const Pack e = load(&predicted_energy[i]);
-      store(law.pressure(rho, e), &pressure[i]);
-      store(kernels::square_root(Pack(law.sound_speed_squared(rho, e))), &sound_speed[i]);
-    }
-  }
-  void form_pressure_term(const GasOptions &options) {
-    if (options.density == DensityRule::continuity)
-      pressure_term.copy(pressure);
-    else
-      for (std::size_t i = begin_; i < end_; ++i)
-        pressure_term[i] = pressure[i] / (density[i] * density[i]);
-  }
-  void form_acceleration() {
-    for (std::size_t i = begin_; i < end_; ++i)
-      acceleration[i] = force[i] / mass[i];
-  }
-  void form_rates(const GasOptions &options);
 
   dynamics::State state(const GasOptions &options);
   std::size_t bytes() const;

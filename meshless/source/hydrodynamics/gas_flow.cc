@@ -3,6 +3,7 @@
 #include "gas_arrays.h"
 #include "pair_passes.h"
 #include "pair_ranges.h"
+#include "particle_sweeps.h"
 
 #include "meshless/dynamics/violation.h"
 
@@ -32,13 +33,9 @@ public:
   Implementation(const GasParticles &particles, const GasOptions &options)
       : options_(options), arrays_(particles, options), ranges_(arrays_.allocated()) {
     start_lengths();
-    arrays_.predicted_velocity.copy(arrays_.velocity);
-    arrays_.predicted_energy.copy(arrays_.energy);
-    evaluate(0);
-    work_along(arrays_.velocity);
-    keep_rates();
+    evaluate_rates();
     refresh();
-    find_limit();
+    guard_and_find_limit();
   }
 
   double stable_step() const { return limit_; }
@@ -48,36 +45,20 @@ public:
       violate(limiting_, fmt::format("the time step {:.4g} s is {:.3g} times the largest stable one, {:.4g} s = h / (c "
                                      "+ 0.6 (alpha c + beta mu)) of this particle",
                                      dt, dt / limit_, limit_));
-    if (options_.predictor == Predictor::midpoint) {
-      arrays_.predicted_velocity.copy(arrays_.velocity);
-      arrays_.predicted_energy.copy(arrays_.energy);
-      evaluate(time_);
-      work_along(arrays_.velocity);
-      keep_rates();
-    }
-    const double half = 0.5 * dt;
-    arrays_.position.add(half, arrays_.velocity);
-    arrays_.predicted_velocity.set_sum(arrays_.velocity, half, arrays_.acceleration);
-    arrays_.predicted_energy.set_sum(arrays_.energy, half, arrays_.energy_rate);
-    if (options_.density == DensityRule::continuity) {
-      arrays_.start_density.copy(arrays_.density);
-      arrays_.density.add(half, arrays_.density_rate);
-    }
-    evaluate(time_ + half);
-    arrays_.predicted_velocity.set_sum(arrays_.velocity, half, arrays_.acceleration); // the mean of before and after
-    arrays_.velocity.add(dt, arrays_.acceleration);
+    if (options_.predictor == Predictor::midpoint)
+      evaluate_rates();
+    const bool continuity = options_.density == DensityRule::continuity;
+    if (continuity)
+      drift_and_predict<true>(arrays_, 0.5 * dt);
+    else
+      drift_and_predict<false>(arrays_, 0.5 * dt);
+    evaluate(time_ + 0.5 * dt);
+    kick(arrays_, dt);
     work_along(arrays_.predicted_velocity);
-    keep_rates();
-    arrays_.energy.add(dt, arrays_.energy_rate);
-    if (options_.density == DensityRule::continuity)
-      arrays_.density.set_sum(arrays_.start_density, dt, arrays_.density_rate);
-    arrays_.position.add(half, arrays_.velocity);
-    if (options_.adaptive)
-      adapt_lengths();
+    form_all_rates(dt);
     time_ += dt;
     ++steps_;
-    guard();
-    find_limit();
+    guard_and_find_limit();
   }
 
   Snapshot snapshot() {
@@ -134,10 +115,45 @@ public:
     time_ = counters_[0];
     steps_ = static_cast<std::int64_t>(counters_[1]);
     first_limit_ = counters_[2];
-    find_limit();
+    guard_and_find_limit();
   }
 
 private:
+  /// Calls f<continuity, viscous, conducting>().
+  template <typename F>
+  void with_effects(const F &f) const {
+    const auto with = [&]<bool continuity>() {
+      if (options_.viscosity && options_.conduction)
+        f.template operator()<continuity, true, true>();
+      else if (options_.viscosity)
+        f.template operator()<continuity, true, false>();
+      else if (options_.conduction)
+        f.template operator()<continuity, false, true>();
+      else
+        f.template operator()<continuity, false, false>();
+    };
+    if (options_.density == DensityRule::continuity)
+      with.template operator()<true>();
+    else
+      with.template operator()<false>();
+  }
+
+  /// Rates at the present state.
+  void evaluate_rates() {
+    arrays_.predicted_velocity.copy(arrays_.velocity);
+    arrays_.predicted_energy.copy(arrays_.energy);
+    evaluate(time_);
+    kick(arrays_, 0);
+    work_along(arrays_.velocity);
+    form_all_rates(0);
+  }
+
+  void form_all_rates(double dt) {
+    with_effects([&]<bool continuity, bool viscous, bool conducting>() {
+      form_rates<continuity, viscous, conducting>(arrays_, dt, options_.adaptive ? options_.smoothing : 0);
+    });
+  }
+
   /// Density and pressure of the present positions.
   void refresh() {
     if (options_.density == DensityRule::summation) {
@@ -146,7 +162,7 @@ private:
       sum();
     }
     arrays_.predicted_energy.copy(arrays_.energy);
-    apply_state(time_);
+    apply_law(time_);
   }
 
   [[noreturn]] void violate(std::size_t place, const std::string &reason) const {
@@ -190,37 +206,22 @@ private:
     return (c + 0.6 * (alpha * c + beta * arrays_.smoothing_length[i] * rate)) / arrays_.smoothing_length[i];
   }
 
-  /// The largest stable step and the particle that it is of.
-  void find_limit() {
-    const double alpha = options_.viscosity ? options_.viscosity->linear : 0;
-    const double beta = options_.viscosity ? options_.viscosity->quadratic : 0;
+  /// Finite values, positive density and energy, order; the largest stable step and the particle that it is of.
+  void guard_and_find_limit() {
     const std::size_t end = arrays_.end();
-    double largest = 0;
-    const auto take = [&](std::size_t i) {
-      if (const double value = inverse_step(i); !(value <= largest)) {
-        largest = value;
-        limiting_ = i;
-      }
-    };
+    largest_inverse_ = 0;
     std::size_t i = arrays_.begin();
+    check(i);
     take(i++);
-    for (; i + n_lanes < end; i += n_lanes) {
-      const Pack h = load(&arrays_.smoothing_length[i]);
-      Pack value = (1 + 0.6 * alpha) * load(&arrays_.sound_speed[i]) / h;
-      if (options_.viscosity) {
-        const Pack x = load(&arrays_.position[i]);
-        const Pack v = load(&arrays_.velocity[i]);
-        const Pack before = (load(&arrays_.velocity[i - 1]) - v) / (x - load(&arrays_.position[i - 1]));
-        const Pack after = (v - load(&arrays_.velocity[i + 1])) / (load(&arrays_.position[i + 1]) - x);
-        value += 0.6 * beta * max(max(before, after), Pack(0));
-      }
-      if (!all_of(value * (1 + 1e-12) <= Pack(largest)))
-        for (std::size_t lane = 0; lane < n_lanes; ++lane)
-          take(i + lane);
-    }
-    for (; i < end; ++i)
+    if (options_.viscosity)
+      i = sweep<true>(i);
+    else
+      i = sweep<false>(i);
+    for (; i < end; ++i) {
+      check(i);
       take(i);
-    limit_ = 1 / largest;
+    }
+    limit_ = 1 / largest_inverse_;
     if (steps_ == 0)
       first_limit_ = limit_;
     else if (!(limit_ > least_step * first_limit_))
@@ -228,6 +229,49 @@ private:
               fmt::format("the stable time step has fallen to {:.3g} s from {:.3g} s at the start: particles "
                           "collide",
                           limit_, first_limit_));
+  }
+
+  void take(std::size_t i) {
+    if (const double value = inverse_step(i); !(value <= largest_inverse_)) {
+      largest_inverse_ = value;
+      limiting_ = i;
+    }
+  }
+
+  /// The same for whole packs from `i` on, without a division unless a particle has a smaller step than those before:
+  /// (A c + B h dv / dx) <= L h is A c dx + B h dv <= L h dx. Returns where it ends.
+  template <bool viscous>
+  std::size_t sweep(std::size_t i) {
+    const double alpha = viscous ? options_.viscosity->linear : 0;
+    const double beta = viscous ? options_.viscosity->quadratic : 0;
+    const double for_sound = (1 + 0.6 * alpha) * (1 + 1e-12);
+    const double for_speed = 0.6 * beta * (1 + 1e-12);
+    const Pack most(std::numeric_limits<double>::max());
+    for (; i + n_lanes < arrays_.end(); i += n_lanes) {
+      const Pack h = load(&arrays_.smoothing_length[i]);
+      const Pack c = for_sound * load(&arrays_.sound_speed[i]);
+      const Pack x = load(&arrays_.position[i]);
+      const Pack v = load(&arrays_.velocity[i]);
+      const Pack e = load(&arrays_.energy[i]);
+      const Pack dx_after = load(&arrays_.position[i + 1]) - x;
+      if (!all_of(dx_after > Pack(0) && load(&arrays_.density[i]) > Pack(0) && e > Pack(0) && e < most &&
+                  abs(v) < most))
+        for (std::size_t lane = 0; lane < n_lanes; ++lane)
+          check(i + lane);
+      const Pack limit = largest_inverse_ * h;
+      auto below = c <= limit;
+      if constexpr (viscous) {
+        const Pack dx_before = x - load(&arrays_.position[i - 1]);
+        const Pack dv_before = load(&arrays_.velocity[i - 1]) - v;
+        const Pack dv_after = v - load(&arrays_.velocity[i + 1]);
+        below = below && (limit - c) * dx_before >= for_speed * h * dv_before &&
+                (limit - c) * dx_after >= for_speed * h * dv_after;
+      }
+      if (!all_of(below))
+        for (std::size_t lane = 0; lane < n_lanes; ++lane)
+          take(i + lane);
+    }
+    return i;
   }
 
   void place_images() {
@@ -263,12 +307,25 @@ private:
   }
 
   /// Pressure and sound speed from density and predicted energy.
-  void apply_state(double time) {
-    std::visit([&](const auto &law) { arrays_.apply(law); }, options_.equation_of_state);
-    if (options_.burn)
-      for (std::size_t i = arrays_.begin(); i < arrays_.end(); ++i)
-        arrays_.pressure[i] *= options_.burn->fraction(arrays_.start_position[i - arrays_.begin()], time);
-    arrays_.form_pressure_term(options_);
+  void apply_law(double time) {
+    with_effects([&]<bool continuity, bool viscous, bool conducting>() {
+      std::visit(
+          [&](const auto &law) {
+            if (options_.burn)
+              apply_state<continuity, viscous, conducting>(arrays_, law, [&]<typename T>(std::size_t i, T) {
+                const auto share = [&](std::size_t lane) {
+                  return options_.burn->fraction(arrays_.start_position[i + lane - arrays_.begin()], time);
+                };
+                if constexpr (std::is_same_v<T, double>)
+                  return share(0);
+                else
+                  return T([&](auto lane) { return share(lane); });
+              });
+            else
+              apply_state<continuity, viscous, conducting>(arrays_, law, effects::Absent{});
+          },
+          options_.equation_of_state);
+    });
   }
 
   /// Forces at the present positions with the predicted velocity and energy.
@@ -278,11 +335,8 @@ private:
     find_ranges();
     if (options_.density == DensityRule::summation)
       sum();
-    apply_state(time);
+    apply_law(time);
     arrays_.copy_images();
-    arrays_.force.zero();
-    if (options_.conduction)
-      arrays_.heat.zero();
     Fields fields = arrays_.fields();
     fields.velocity = arrays_.predicted_velocity.data();
     fields.energy = arrays_.predicted_energy.data();
@@ -290,7 +344,6 @@ private:
       add_all_forces<true>(fields);
     else
       add_all_forces<false>(fields);
-    arrays_.form_acceleration();
   }
 
   template <bool continuity>
@@ -314,40 +367,22 @@ private:
     Fields fields = arrays_.fields();
     fields.velocity = velocity.data();
     arrays_.reverse_images(velocity);
-    arrays_.compression.zero();
-    if (options_.viscosity) {
-      arrays_.viscous_work.zero();
+    if (options_.viscosity)
       add_work<true>(ranges_, fields);
-    } else
+    else
       add_work<false>(ranges_, fields);
   }
 
-  void keep_rates() { arrays_.form_rates(options_); }
-
-  /// Finite values, positive density and energy, order.
-  void guard() const {
-    const std::size_t begin = arrays_.begin();
-    const std::size_t end = arrays_.end();
-    std::size_t i = begin;
-    const double most = std::numeric_limits<double>::max();
-    for (; i + n_lanes < end; i += n_lanes) {
-      const auto good = load(&arrays_.position[i]) < load(&arrays_.position[i + 1]) &&
-                        load(&arrays_.density[i]) > Pack(0) && load(&arrays_.energy[i]) > Pack(0) &&
-                        abs(load(&arrays_.velocity[i])) < Pack(most) && load(&arrays_.energy[i]) < Pack(most);
-      if (!all_of(good))
-        break;
-    }
-    for (; i < end; ++i) {
-      const double x = arrays_.position[i];
-      if (!std::isfinite(x) || !std::isfinite(arrays_.velocity[i]) || !std::isfinite(arrays_.energy[i]))
-        violate(i, "a value is not finite");
-      if (!(arrays_.density[i] > 0))
-        violate(i, fmt::format("the density {:.4g} kg/m^3 is not positive", arrays_.density[i]));
-      if (!(arrays_.energy[i] > 0))
-        violate(i, fmt::format("the internal energy {:.4g} J/kg is not positive", arrays_.energy[i]));
-      if (i + 1 < end && !(x < arrays_.position[i + 1]))
-        violate(i, fmt::format("particles cross: the next one is at x = {:.6g} m", arrays_.position[i + 1]));
-    }
+  void check(std::size_t i) const {
+    const double x = arrays_.position[i];
+    if (!std::isfinite(x) || !std::isfinite(arrays_.velocity[i]) || !std::isfinite(arrays_.energy[i]))
+      violate(i, "a value is not finite");
+    if (!(arrays_.density[i] > 0))
+      violate(i, fmt::format("the density {:.4g} kg/m^3 is not positive", arrays_.density[i]));
+    if (!(arrays_.energy[i] > 0))
+      violate(i, fmt::format("the internal energy {:.4g} J/kg is not positive", arrays_.energy[i]));
+    if (i + 1 < arrays_.end() && !(x < arrays_.position[i + 1]))
+      violate(i, fmt::format("particles cross: the next one is at x = {:.6g} m", arrays_.position[i + 1]));
   }
 
   GasOptions options_;
@@ -358,6 +393,7 @@ private:
   std::int64_t n_evaluations_ = 0;
   double limit_ = 0; ///< largest stable step
   double first_limit_ = 0;
+  double largest_inverse_ = 0;
   std::size_t limiting_ = 0;
   std::array<double, 3> counters_{};
 };

@@ -12,7 +12,9 @@
 
 /// The loops over the pairs of a line of particles. A block of particles i is taken with one k after the other; the
 /// pairs (i, i + k) lie side by side in all arrays. What a pair gives to j = i + k is added in a second loop, because
-/// there it may lie in the same vector as what another pair reads.
+/// there it may lie in the same vector as what another pair reads. Kernel, effects and the arrays' addresses are taken
+/// by value: behind a reference they would be read again after every store. `flatten` has the compiler inline what the
+/// loops call, as it would not in a function of this size.
 namespace meshless::hydrodynamics {
 
 /// Arrays with one value a particle; of those for an effect that is absent there is none.
@@ -66,7 +68,7 @@ struct Pairs {
 
 /// density += sum_j m_j W_ij over the pairs; the particle's own share is not in it.
 template <typename Kernel>
-void sum_density(const Kernel &kernel, const PairRanges &ranges, const Fields &fields) {
+[[gnu::flatten]] void sum_density(const Kernel kernel, const PairRanges &ranges, const Fields fields) {
   using namespace internal;
   const double limit = basis::edge_limit(kernel.support(), basis::EdgeRule::excluded);
   const double g = kernel.normalisation(1);
@@ -92,8 +94,8 @@ void sum_density(const Kernel &kernel, const PairRanges &ranges, const Fields &f
 ///   d rho_i / dt = rho_i sum_j (m_j / rho_j) (v_i - v_j) W'_ij
 /// and bears jumps of the density; `pair_gradient` is then m_i m_j / (rho_i rho_j) W'_ij and `pressure_term` p.
 template <bool continuity, typename Kernel, typename Viscosity, typename Conduction>
-void add_forces(const Kernel &kernel, const Viscosity &viscosity, const Conduction &conduction,
-                const PairRanges &ranges, const Fields &fields) {
+[[gnu::flatten]] void add_forces(const Kernel kernel, const Viscosity viscosity, const Conduction conduction,
+                                 const PairRanges &ranges, const Fields fields) {
   using namespace internal;
   constexpr bool viscous = effects::is_present<Viscosity>;
   constexpr bool conducting = effects::is_present<Conduction>;
@@ -149,7 +151,7 @@ void add_forces(const Kernel &kernel, const Viscosity &viscosity, const Conducti
 /// The work of the pairs' forces along `velocity`: with dv = v_i - v_j
 ///   compression_i += m_i m_j W'_ij dv,  viscous_work_i += m_i m_j W'_ij Pi_ij dv / 2,  and the same to j.
 template <bool viscous>
-void add_work(const PairRanges &ranges, const Fields &fields) {
+[[gnu::flatten]] void add_work(const PairRanges &ranges, const Fields fields) {
   using namespace internal;
   BlockArray work;
   [[maybe_unused]] BlockArray viscous_work;

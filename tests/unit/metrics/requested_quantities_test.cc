@@ -81,7 +81,7 @@ std::map<std::string, double> quantities_of(std::vector<RequestedQuantity> reque
   std::map<std::string, double> quantities;
   const auto quadrature = problem.quadrature({});
   metrics::add_requested_quantities(solution, problem, quadrature,
-                                    metrics::equilibrium(solution, problem.statement(), quadrature), quantities);
+                                    metrics::equilibrium(solution, problem.statement(), {}), quantities);
   return quantities;
 }
 

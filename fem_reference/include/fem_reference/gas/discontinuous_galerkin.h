@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// Mesh-based reference for gases on a line. Cells of a line need no mesh library: plain arrays.
+/// Mesh-based reference for gases on a line.
 namespace fem_reference::gas {
 
 /// Density (kg/m^3), momentum (kg/(m^2 s)) and total energy (J/m^3) per volume.
@@ -33,13 +33,17 @@ struct Tube {
   std::size_t n_cells = 100;
   double gamma = 1.4;
   std::array<Boundary, 2> boundaries{Boundary::outflow, Boundary::outflow};
-  /// States at the centres of the cells at t = 0: from a span of x to a span of states.
+  /// States at t = 0: from a span of x to a span of states. For degree 0 the cells' centres are asked for, for degree 1
+  /// two Gauss points a cell.
   std::function<void(std::span<const double>, std::span<Primitive>)> initial;
 };
 
 /// Discontinuous Galerkin for the Euler equations of an ideal gas: polynomials of degree 0 or 1 in each cell, the
 /// numerical flux HLLC (Toro, Spruce & Speares 1994), for degree 1 Heun's method in time and slopes limited by minmod
 /// (Cockburn & Shu 1989), for degree 0 Euler's.
+///
+/// Mesh, numbering, mass matrix and the integrals over cells are deal.II's (FE_DGP, FEValues), taken once into arrays
+/// by cells, on which the steps work.
 class DiscontinuousGalerkin {
 public:
   /// @param degree 0 or 1
@@ -71,7 +75,6 @@ private:
   using Cells = std::vector<Conserved>;
 
   Primitive primitive(const Conserved &u) const;
-  Conserved conserved(const Primitive &w) const;
   Conserved flux(const Conserved &u) const;
   Conserved hllc(const Conserved &left, const Conserved &right) const;
   bool is_gas(const Conserved &u) const;
@@ -82,13 +85,15 @@ private:
 
   int degree_;
   double gamma_;
-  double left_;
   double width_;
   std::array<Boundary, 2> boundaries_;
   double time_ = 0;
   std::array<double, 1> counters_{};
-  std::vector<double> centres_;
-  Cells mean_, slope_; ///< u = mean + slope xi, xi in [-1, 1]; no slopes for degree 0
+  std::vector<double> ends_, centres_;
+  std::vector<std::array<double, 2>> inverse_mass_; ///< of the constant and the linear function, 1 / m
+  // Of the linear function: at the cell's ends, at its Gauss points, and phi,x JxW there.
+  std::array<double, 2> traces_{}, point_values_{}, gradient_weights_{};
+  Cells mean_, slope_; ///< coefficients of the two functions; no slopes for degree 0
   Cells mean_rate_, slope_rate_, mean_stage_, slope_stage_, fluxes_;
 };
 
