@@ -37,7 +37,12 @@ set(DEAL_II_LINKER_FLAGS_DEBUG "")
 # only: neither include paths nor flags nor definitions of deal.II pass on. (The macro links by the old signature
 # without PUBLIC or PRIVATE, so later target_link_libraries calls for this target must do likewise.)
 function(petrov_use_deal_ii target)
-  deal_ii_setup_target(${target})
+  # Its Debug library would make a sanitized run last hours, and is not instrumented anyway.
+  if(PETROV_SANITIZE)
+    deal_ii_setup_target(${target} RELEASE)
+  else()
+    deal_ii_setup_target(${target})
+  endif()
   set_target_properties(${target} PROPERTIES
     INTERFACE_COMPILE_OPTIONS "" INTERFACE_COMPILE_DEFINITIONS ""
     JOB_POOL_COMPILE deal_ii_pool JOB_POOL_PRECOMPILE_HEADER deal_ii_pool)

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace comparisons::geometry {
@@ -82,6 +83,8 @@ std::optional<MeshFile> read_mesh(const std::filesystem::path &path, const ReadO
 /// version that is taken, with complete sections, and no count larger than the file can hold. Findings carry the
 /// line where there are lines.
 void check_structure(const std::filesystem::path &path, scene::Diagnostics &diagnostics);
+/// The same for bytes in memory; the path says whether they are a mesh or a drawing, and stands in the findings.
+void check_structure(std::string_view bytes, const std::filesystem::path &path, scene::Diagnostics &diagnostics);
 
 /// Nodes of an element by Gmsh's number of its type; 0 if unknown.
 int nodes_of_type(int type);

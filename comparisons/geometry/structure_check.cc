@@ -394,7 +394,14 @@ std::string contents(const fs::path &path) {
 
 void check_structure(const std::filesystem::path &path, scene::Diagnostics &diagnostics) {
   try {
-    const std::string bytes = contents(path);
+    check_structure(contents(path), path, diagnostics);
+  } catch (const StructureError &error) {
+    diagnostics.error({path.string(), error.line, error.line > 0 ? 1U : 0U}, {}, error.message, error.suggestion);
+  }
+}
+
+void check_structure(std::string_view bytes, const std::filesystem::path &path, scene::Diagnostics &diagnostics) {
+  try {
     if (path.extension() == ".geo")
       check_drawing(bytes);
     else

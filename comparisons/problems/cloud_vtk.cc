@@ -137,6 +137,10 @@ void read_array(Words &words, std::string_view name, std::size_t n, std::size_t 
     words.fail(fmt::format("{} has {} components; it is one number a point", name, n_components));
   if (wanted && n != cloud.positions.size())
     words.fail(fmt::format("{} values of {} for {} points", n, name, cloud.positions.size()));
+  if (wanted && (name == "h"        ? !cloud.spacing.empty()
+                 : name == "volume" ? !cloud.volumes.empty()
+                                    : !cloud.regions.empty()))
+    words.fail(fmt::format("the array {} stands twice", name));
   for (std::size_t i = 0; i < n * n_components; ++i) {
     const double value = words.number(fmt::format("{} of point {}", name, i / n_components));
     if (!wanted)

@@ -15,6 +15,7 @@ struct CommonOptions {
   std::optional<int> repeats;
   bool quiet = false;
   bool isolate = false;
+  bool resume = false;
 
   /// The options as overrides of a scene's keys, after the user's own.
   std::vector<std::string> overrides() const;

@@ -50,6 +50,7 @@ void add_common_options(CLI::App &command, CommonOptions &options) {
   command.add_option("--repeats", options.repeats, "timed runs of every cell")->check(whole_number(1, 1000));
   command.add_flag("--quiet", options.quiet, "no progress and no messages but errors");
   command.add_flag("--isolate", options.isolate, "run every cell in a process of its own");
+  command.add_flag("--resume", options.resume, "go on with an interrupted run of the same command");
 }
 
 /// Parses; returns an exit code if the program is to end here (help, version, a usage error).

@@ -156,11 +156,13 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
 
   const Interrupt interrupt;
   const metrics::CompetingWork others;
+  study::CellJournal journal(plan.directory / ".cells", options.resume);
   {
     Progress progress(options.quiet);
     study::RunOptions run;
     run.isolate = options.isolate;
     run.directory = plan.directory;
+    run.journal = &journal;
     run.stop_requested = [] { return Interrupt::requested(); };
     run.progress = [&](const std::string &text) { progress.show(text); };
     run.long_progress = [&](const std::string &text) { progress.show_within(text); };
@@ -176,6 +178,13 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
   results.machine.competing_cores = others.cores();
   results.machine.load_at_end = metrics::current_load();
   results.not_comparable = metrics::reasons_not_comparable(results.program, results.machine, threads, watch.lap());
+  if (const auto n = journal.n_recalled(); n > 0) {
+    results.not_comparable.push_back(
+        fmt::format("{} of {} cells were timed, at least in part, by an earlier run, which was interrupted", n,
+                    results.cells.size()));
+    if (!options.quiet)
+      fmt::print(stderr, "{} of {} cells were kept from an earlier run\n", n, results.cells.size());
+  }
   results.equal_error = reports::equal_errors(results);
   if (with_ledger && !results.interrupted)
     settle_published(plan, results);
@@ -195,6 +204,10 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
   std::string names;
   for (const auto &file : files)
     names += " " + file.string();
+  if (!results.interrupted)
+    journal.remove();
+  else if (!options.quiet)
+    fmt::print(stderr, "\nInterrupted; the same command with --resume goes on with the cells that are missing\n");
   if (!options.quiet)
     fmt::print(stderr, "\nWritten:{} and curves in {}\n", names, (plan.directory / "series").string());
   return exit_code_of(results);

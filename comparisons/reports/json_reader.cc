@@ -1,4 +1,5 @@
 #include "comparisons/reports/json.h"
+#include "comparisons/reports/json_depth.h"
 
 #include <fmt/format.h>
 
@@ -279,6 +280,8 @@ Results from_json(const Json &json) {
 }
 
 Results parse_results(std::string_view text) {
+  if (!JsonDepth::is_bounded(text, nlohmann::detail::input_format_t::json))
+    throw ResultsError("", fmt::format("this is no results file: more than {} levels of brackets", largest_json_depth));
   Json json;
   try {
     json = Json::parse(text);

@@ -158,6 +158,35 @@ std::string describe(const Node &node) {
   return "a value";
 }
 
+namespace {
+
+/// '?' in place of every character beyond ASCII: the same syntax in the same columns. When the parser has met an error
+/// it reads on to the end of the word, over quotes too, and its tests of characters (toml++ 3.3) are undefined for some
+/// beyond ASCII; so a text is parsed as it stands only after its shadow was right.
+std::string ascii_shadow(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::string shadow;
+  if (text.starts_with(byte_order_mark))
+    shadow = byte_order_mark;
+  for (const char c : text.substr(shadow.size())) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80)
+      shadow += c;
+    else if (byte >= 0xC0) // the first byte of a character
+      shadow += '?';
+  }
+  return shadow;
+}
+
+toml::parse_result parse_text(std::string_view text, std::string_view file) {
+  if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+    if (auto shadow = toml::parse(std::string_view(ascii_shadow(text)), file); !shadow)
+      return shadow;
+  return toml::parse(text, file);
+}
+
+} // namespace
+
 std::optional<Node> parse_document(std::string_view text, const std::string &file, Diagnostics &diagnostics) {
   std::size_t position = 0;
   if (!is_plain_utf8(text, position)) {
@@ -171,7 +200,7 @@ std::optional<Node> parse_document(std::string_view text, const std::string &fil
     diagnostics.error(place(text, finding->position, file), {}, finding->message, finding->suggestion);
     return std::nullopt;
   }
-  const auto result = toml::parse(text, file);
+  const auto result = parse_text(text, file);
   if (!result) {
     const auto begin = result.error().source().begin;
     diagnostics.error({file, begin.line, begin.column}, {},
@@ -192,7 +221,7 @@ std::optional<Node> parse_value(std::string_view text, const Location &location)
   const std::string line = fmt::format("value = {}", text);
   if (scan_syntax(line))
     return std::nullopt;
-  const auto result = toml::parse(std::string_view(line), std::string_view{});
+  const auto result = parse_text(line, {});
   if (!result || result.table().size() != 1)
     return std::nullopt;
   Converter converter({});

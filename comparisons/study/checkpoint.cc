@@ -1,6 +1,7 @@
 #include "comparisons/study/checkpoint.h"
 
 #include "comparisons/reports/files.h"
+#include "comparisons/reports/json_depth.h"
 #include "comparisons/study/experiment.h"
 
 #include <fmt/format.h>
@@ -93,14 +94,26 @@ void write_checkpoint(const std::filesystem::path &path, const std::string &iden
 
 Measured read_checkpoint(const std::filesystem::path &path, const std::string &identity,
                          const meshless::dynamics::State &state) {
-  const auto fail = [&](const std::string &what) {
-    throw CheckpointError(fmt::format("checkpoint {}: {}", path.string(), what));
-  };
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    fail("cannot be read");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto json = nlohmann::json::from_cbor(bytes.begin(), bytes.end(), true, false);
+    throw CheckpointError(fmt::format("checkpoint {}: cannot be read", path.string()));
+  return parse_checkpoint({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()}, path.string(),
+                          identity, state);
+}
+
+Measured parse_checkpoint(const std::string &bytes, const std::string &name, const std::string &identity,
+                          const meshless::dynamics::State &state) {
+  const auto fail = [&](const std::string &what) {
+    throw CheckpointError(fmt::format("checkpoint {}: {}", name, what));
+  };
+  if (!reports::JsonDepth::is_bounded(bytes, nlohmann::detail::input_format_t::cbor))
+    fail("no checkpoint of this program: nested too deep; remove it, or set time.resume = false");
+  nlohmann::json json(nlohmann::json::value_t::discarded);
+  try {
+    json = nlohmann::json::from_cbor(bytes.begin(), bytes.end(), true, false);
+  } catch (const nlohmann::json::exception &) {
+    // Thrown, whatever is asked for, by an array that is announced with more values than there can be.
+  }
   if (json.is_discarded())
     fail("truncated or no checkpoint of this program; remove it, or set time.resume = false");
   if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
@@ -127,9 +140,15 @@ Measured read_checkpoint(const std::filesystem::path &path, const std::string &i
   }
   if (json.value("checksum", nlohmann::json()) != hash.text())
     fail("damaged: its checksum does not fit its values");
+  Measured measured;
+  try {
+    measured = json.value("measured", Measured());
+  } catch (const nlohmann::json::exception &) {
+    fail("damaged: what was measured is no list of numbers by name");
+  }
   for (std::size_t f = 0; f < state.size(); ++f)
     std::ranges::copy(values[f], state[f].values.begin());
-  return json.value("measured", Measured());
+  return measured;
 }
 
 } // namespace comparisons::study

@@ -42,5 +42,8 @@ void write_checkpoint(const std::filesystem::path &path, const std::string &iden
 ///   or does not fit the state; the state is then unchanged
 Measured read_checkpoint(const std::filesystem::path &path, const std::string &identity,
                          const meshless::dynamics::State &state);
+/// The same from bytes in memory; `name` stands for the file in messages.
+Measured parse_checkpoint(const std::string &bytes, const std::string &name, const std::string &identity,
+                          const meshless::dynamics::State &state);
 
 } // namespace comparisons::study

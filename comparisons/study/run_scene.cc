@@ -20,11 +20,9 @@ namespace {
 constexpr double long_cell_seconds = 10;
 
 /// A cell with the seconds of its repeats.
-struct Measured {
+struct Measured : KeptCell {
   CellTask task;
-  reports::Cell cell;
-  std::map<std::string, std::vector<double>> samples;
-  bool done = false; ///< no further repeats
+  bool warm = false; ///< has run in this process
 };
 
 /// The cells of a scene in the order of the tables: variant, method, level.
@@ -36,6 +34,9 @@ public:
       limits_.seconds = scene.study.real("max_seconds");
     if (scene.study.has("max_memory"))
       limits_.memory_bytes = scene.study.integer("max_memory");
+    if (options.journal != nullptr)
+      identity_ = identity_of(scene, metrics::describe_program(),
+                              metrics::describe_machine(static_cast<int>(scene.study.integer("threads"))));
     isolate_ = options.isolate || limits_.seconds || limits_.memory_bytes;
     const auto &benchmark = find_benchmark(catalogue, scene.benchmark);
     for (const auto &variant : scene.problems) {
@@ -43,7 +44,7 @@ public:
       experiments_.back()->report_to(options.long_progress);
       for (const auto &request : scene.methods)
         for (const auto &level : request.levels)
-          measured_.push_back({{&scene, &variant, experiments_.back().get(), &request, &level}, {}, {}});
+          measured_.push_back({{}, {&scene, &variant, experiments_.back().get(), &request, &level}});
     }
   }
 
@@ -56,14 +57,16 @@ public:
       if (stopped())
         break;
       report_progress(measured, n_finished);
-      first_run(measured);
+      if (!recall(measured))
+        first_run(measured);
       if (stopped())
         break; // the cell was cut short
       ++n_finished;
     }
     for (int repeat = 0; repeat < repeats && !stopped(); ++repeat)
       for (std::size_t i = 0; i < n_finished && !stopped(); ++i)
-        repeat_run(measured_[i]);
+        if (n_repeats(measured_[i]) <= repeat)
+          repeat_run(measured_[i]);
     std::vector<reports::Cell> cells;
     for (std::size_t i = 0; i < n_finished; ++i) {
       summarise(measured_[i]);
@@ -88,6 +91,26 @@ private:
     if (options_.progress)
       options_.progress(fmt::format("{}/{}: cell {} of {}: {} {}", scene_.benchmark, scene_.name, n_finished + 1,
                                     measured_.size(), measured.task.request->label, measured.task.level->text));
+  }
+
+  /// Takes what an earlier run has of a cell.
+  bool recall(Measured &measured) const {
+    if (options_.journal == nullptr)
+      return false;
+    auto kept = options_.journal->recall(identity_, describe_cell(measured.task));
+    if (kept)
+      static_cast<KeptCell &>(measured) = std::move(*kept);
+    return kept.has_value();
+  }
+
+  void keep(const Measured &measured) const {
+    if (options_.journal != nullptr)
+      options_.journal->keep(identity_, measured);
+  }
+
+  static int n_repeats(const Measured &measured) {
+    const auto total = measured.samples.find("total");
+    return total == measured.samples.end() ? 0 : static_cast<int>(total->second.size());
   }
 
   reports::Cell run_once(const CellTask &task, bool with_errors) {
@@ -152,10 +175,18 @@ private:
       measured.cell.warnings.push_back(fmt::format("longer than {} s: timed once, without warm-up", long_cell_seconds));
       keep_seconds(measured, measured.cell);
     }
+    measured.warm = true;
+    if (!stopped())
+      keep(measured);
   }
 
   void repeat_run(Measured &measured) {
     if (measured.done)
+      return;
+    if (!measured.warm)
+      run_once(measured.task, false); // its first run was another process's
+    measured.warm = true;
+    if (stopped())
       return;
     const auto cell = run_once(measured.task, false);
     if (cell.status != reports::Status::ok) {
@@ -163,10 +194,12 @@ private:
         return;
       measured.cell.warnings.push_back("a repeat ended with '" + cell.reason + "'");
       measured.done = true;
+      keep(measured);
       return;
     }
     keep_seconds(measured, cell);
     measured.cell.memory_bytes = std::max(measured.cell.memory_bytes, cell.memory_bytes);
+    keep(measured);
   }
 
   static void keep_seconds(Measured &measured, const reports::Cell &cell) {
@@ -182,14 +215,14 @@ private:
       const double median = n % 2 == 1 ? samples[n / 2] : 0.5 * (samples[n / 2 - 1] + samples[n / 2]);
       measured.cell.seconds[phase] = {median, samples.front(), samples.back()};
     }
-    const auto total = measured.samples.find("total");
-    measured.cell.repeats = total == measured.samples.end() ? 0 : static_cast<int>(total->second.size());
+    measured.cell.repeats = n_repeats(measured);
   }
 
   const scene::Scene &scene_;
   const RunOptions &options_;
   Limits limits_;
   bool isolate_ = false;
+  std::string identity_; ///< for the journal
   std::vector<std::unique_ptr<Experiment>> experiments_;
   std::vector<Measured> measured_;
 };

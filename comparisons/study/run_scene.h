@@ -3,6 +3,7 @@
 #include "comparisons/reports/results.h"
 #include "comparisons/scene/scene.h"
 #include "comparisons/study/catalogue.h"
+#include "comparisons/study/cell_journal.h"
 
 #include <filesystem>
 #include <functional>
@@ -24,6 +25,8 @@ struct RunOptions {
   std::function<void(const std::string &)> progress;
   /// The same from within a long cell, at most twice a second.
   std::function<void(const std::string &)> long_progress = {};
+  /// Gets every run of a cell and gives back the cells of an earlier run; null: none.
+  CellJournal *journal = nullptr;
 };
 
 /// Runs every method x level (x problem variant) of a scene: one warm-up of each cell and then

@@ -31,7 +31,8 @@ TEST(Commands, help_and_version) {
   EXPECT_TRUE(version.out.starts_with("petrov ")) << version.out;
   const auto help_of_run = run_here({"run", "--help"}, folder.path());
   EXPECT_EQ(help_of_run.exit_code, 0);
-  for (const auto *option : {"--output", "--format", "--set", "--threads", "--repeats", "--quiet", "--isolate"})
+  for (const auto *option :
+       {"--output", "--format", "--set", "--threads", "--repeats", "--quiet", "--isolate", "--resume"})
     EXPECT_TRUE(has(help_of_run.out, option)) << option;
 }
 

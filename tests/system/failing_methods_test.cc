@@ -210,6 +210,32 @@ TEST(FailingMethods, a_solver_that_runs_out_of_memory_says_limit) {
   }
 }
 
+TEST(FailingMethods, a_case_that_needs_more_memory_leaves_the_other_cells_intact) {
+  if (!memory_can_be_limited)
+    GTEST_SKIP();
+  const Folder folder;
+  // The factors of 2 x 201 x 51 unknowns take some 300 MB.
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"fem\"\nlevels = [\"31x7\"]\n"
+                             "[[method]]\nname = \"weak1\"\nsolver = \"umfpack\"\nlevels = [\"16x4\", \"201x51\", "
+                             "\"31x7\"]\n[study]\nmax_memory = \"100 MB\"\n");
+  const auto ended = run_program({"run", "scene.toml", "--output", "out"}, folder.path());
+  EXPECT_EQ(ended.exit_code, program::limit_reached) << ended.err;
+  const auto limited = reports::read_results(folder / "out/results.json").cells;
+  run_program({"run", "scene.toml", "--output", "free", "--set", "study.max_memory=\"4 GB\""}, folder.path());
+  const auto free = reports::read_results(folder / "free/results.json").cells;
+  ASSERT_EQ(limited.size(), 4u);
+  ASSERT_EQ(free.size(), 4u);
+  for (std::size_t i = 0; i < limited.size(); ++i)
+    if (limited[i].level == "201x51") {
+      EXPECT_EQ(limited[i].status, reports::Status::limit);
+      EXPECT_NE(limited[i].reason.find("max_memory = 100000000 bytes"), std::string::npos) << limited[i].reason;
+      EXPECT_EQ(free[i].status, reports::Status::ok) << free[i].reason;
+    } else {
+      EXPECT_EQ(limited[i].status, reports::Status::ok) << limited[i].reason;
+      EXPECT_EQ(limited[i].errors, free[i].errors) << limited[i].level;
+    }
+}
+
 TEST(FailingMethods, an_expected_refusal_is_no_failure_and_its_absence_is) {
   const Folder folder;
   const std::string refusal = "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\norder = 4\n"

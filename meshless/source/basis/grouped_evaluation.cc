@@ -1,5 +1,7 @@
 #include "meshless/basis/grouped_evaluation.h"
 
+#include "meshless/linear_algebra/floating_point_traps.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +61,10 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
       members.push_back(points[i]);
     batch.assign(std::span<const cloud::Point<dim>>(members));
     candidate_batch.assign(particles, taking_part);
-    const auto regularity = basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
+    const auto regularity = [&] {
+      const linear_algebra::FloatingPointTraps traps;
+      return basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
+    }();
     try {
       require_regular(regularity, batch, *basis_);
     } catch (const SingularMomentMatrix &error) {

@@ -63,7 +63,9 @@ template <int dim, typename Kernel>
       const auto centre = s_squared == 0;
       const Pack curvature = kernel.curvature(s_squared);
       where(centre, slope) = curvature; // where every direction is radial
-      Pack radial = (curvature - slope) / s_squared;
+      Pack divisor = s_squared;
+      where(centre, divisor) = 1; // 0 / 0 there, even if it is thrown away, would trap in Debug builds
+      Pack radial = (curvature - slope) / divisor;
       where(centre, radial) = 0;
       keep(radial, workspace.curvatures);
     }

@@ -108,6 +108,7 @@ TEST(CloudFile, names_the_fault_of_a_vtk_file) {
   EXPECT_TRUE(mentions(vtk_fault_of(changed(changed(legacy, "2.5 -3", "0 1"), "region", "other")), {"points 0 and 1"}));
   EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, ".1 .2", ".1 0")), {"h of point 1", "greater than 0"}));
   EXPECT_TRUE(mentions(vtk_fault_of(changed(legacy, "POINTS", "POINT")), {"no POINTS"}));
+  EXPECT_TRUE(mentions(vtk_fault_of(legacy + "SCALARS h double\nLOOKUP_TABLE default\n.1 .2\n"), {"h stands twice"}));
   EXPECT_TRUE(mentions(vtk_fault_of(xml.substr(0, 200)), {"cloud.vtk:"}));
   EXPECT_TRUE(
       mentions(vtk_fault_of(changed(xml, "NumberOfPoints=\"2\"", "NumberOfPoints=\"1000000000000\"")), {"no count"}));

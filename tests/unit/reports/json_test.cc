@@ -274,3 +274,9 @@ TEST(Results, SpacingOfALevel) {
   cell.n_points = 0;
   EXPECT_EQ(relative_spacing(cell), std::nullopt);
 }
+
+// The library's writer, which a complaint quotes from, calls itself for every bracket.
+TEST(ResultsJson, AMillionBracketsAreRefused) {
+  const std::string text = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  EXPECT_NE(text_complaint(text).find("levels of brackets"), std::string::npos);
+}

@@ -103,6 +103,22 @@ TEST_F(Checkpoint, ForeignFilesAreRefusedByName) {
   EXPECT_NE(refusal("id", state_).find("cannot be read"), std::string::npos);
 }
 
+// Found by fuzzing: the library threw, or would have called itself for every one of a million brackets.
+TEST_F(Checkpoint, WhatTheLibraryCannotDigestIsRefusedByName) {
+  write(std::string(1'000'000, '\x81')); // arrays of one array
+  EXPECT_NE(refusal("id", state_).find("nested too deep"), std::string::npos);
+  write(std::string("\x9b\x7f") + std::string(7, '\x7f')); // an array of 9e18 values
+  EXPECT_NE(refusal("id", state_).find("truncated or no checkpoint"), std::string::npos);
+  write_checkpoint(file_, "id", state_, {});
+  auto json = nlohmann::json::from_cbor(contents());
+  json["measured"] = {1, 2};
+  const auto bytes = nlohmann::json::to_cbor(json);
+  write({reinterpret_cast<const char *>(bytes.data()), bytes.size()});
+  a_[0] = 1; // not what the file holds
+  EXPECT_NE(refusal("id", state_).find("what was measured is no list of numbers"), std::string::npos);
+  EXPECT_EQ(a_[0], 1);
+}
+
 /// x'' = -x by central differences, with a step that the state decides.
 class Oscillator final : public Evolution {
 public:

@@ -49,8 +49,9 @@ inline Pack exponential(const Pack &x) {
 #pragma GCC unroll 16
   for (int i = 1; i < 14; ++i)
     sum = sum * r + inverse_factorial[i];
-  using Bits = std::experimental::rebind_simd_t<std::int64_t, Pack>;
-  const Bits exponent = (std::bit_cast<Bits>(shifted) << 52) + (std::int64_t{1023} << 52);
+  // Unsigned: for x out of range, in lanes whose result is thrown away, the sum may pass the largest number.
+  using Bits = std::experimental::rebind_simd_t<std::uint64_t, Pack>;
+  const Bits exponent = (std::bit_cast<Bits>(shifted) << 52) + (std::uint64_t{1023} << 52);
   return sum * std::bit_cast<Pack>(exponent);
 }
 
