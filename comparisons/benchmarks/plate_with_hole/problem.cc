@@ -15,29 +15,8 @@ namespace comparisons::benchmarks::plate_with_hole {
 namespace {
 
 using problems::Point2;
-using problems::Stress2;
 using problems::Vector2;
 using scene::Type;
-
-problems::TractionField traction_of(const problems::StressField &stress) {
-  return [stress](std::span<const Point2> points, std::span<const Vector2> normals, std::span<Vector2> values) {
-    std::vector<Stress2> s(points.size());
-    stress(points, s);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      values[i] = {s[i][0] * normals[i][0] + s[i][2] * normals[i][1],
-                   s[i][2] * normals[i][0] + s[i][1] * normals[i][1]};
-  };
-}
-
-/// Zero displacement in one component, no traction in the other.
-problems::BoundaryCondition symmetry(std::size_t component) {
-  problems::BoundaryCondition condition;
-  condition.displacement_prescribed[component] = true;
-  condition.displacement = [](std::span<const Point2>, std::span<Vector2> values) {
-    std::fill(values.begin(), values.end(), Vector2{});
-  };
-  return condition;
-}
 
 bool has_paper_shape(const QuarterPlate &plate) {
   return std::abs(plate.half_length - 3 * plate.radius) < 1e-12 * plate.radius &&
@@ -54,15 +33,7 @@ public:
     const problems::Material material{scene.material.real("E"), scene.material.real("nu"),
                                       scene.material.text("model") == "plane strain"};
     exact_ = kirsch(plate_.radius, stress_, material);
-    statement_.regions = {{{}, material, boundary(plate_)}};
-    statement_.characteristic_length = plate_.half_length;
-    statement_.corners = {{"NE", {plate_.half_length, plate_.half_width}},
-                          {"SE", {plate_.half_length, 0}},
-                          {"NW", {0, plate_.half_width}}};
-    problems::BoundaryCondition loaded;
-    loaded.traction = traction_of(exact_.stress);
-    statement_.conditions = {
-        {x2_axis, symmetry(0)}, {hole, {}}, {x1_axis, symmetry(1)}, {right, loaded}, {top, loaded}};
+    statement_ = plate_with_hole::statement(plate_, material, exact_);
   }
 
   const problems::PlaneStatement &statement() const override { return statement_; }

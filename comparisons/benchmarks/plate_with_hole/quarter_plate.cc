@@ -1,6 +1,7 @@
 #include "comparisons/benchmarks/plate_with_hole/quarter_plate.h"
 
 #include "comparisons/problems/domain_boundary.h"
+#include "comparisons/problems/expression_fields.h"
 
 #include "meshless/cloud_generation/generator.h"
 #include "meshless/linear_algebra/gauss_legendre.h"
@@ -78,6 +79,27 @@ std::vector<problems::BoundaryPiece> boundary(const QuarterPlate &plate) {
           {{l, w}, {0, w}, top, "top"},
           {{0, w}, {0, b}, x2_axis, "x2 axis"},
           {{0, b}, {b, 0}, hole, "hole", problems::Arc{{0, 0}, false}}};
+}
+
+problems::PlaneStatement statement(const QuarterPlate &plate, const problems::Material &material,
+                                   const problems::ExactSolution &exact) {
+  const auto symmetry = [](std::size_t component) {
+    problems::BoundaryCondition condition;
+    condition.displacement_prescribed[component] = true;
+    condition.displacement = [](std::span<const Point2>, std::span<problems::Vector2> values) {
+      std::fill(values.begin(), values.end(), problems::Vector2{});
+    };
+    return condition;
+  };
+  problems::BoundaryCondition loaded;
+  loaded.traction = problems::traction_of(exact.stress);
+  problems::PlaneStatement statement;
+  statement.regions = {{{}, material, boundary(plate)}};
+  statement.characteristic_length = plate.half_length;
+  statement.corners = {
+      {"NE", {plate.half_length, plate.half_width}}, {"SE", {plate.half_length, 0}}, {"NW", {0, plate.half_width}}};
+  statement.conditions = {{x2_axis, symmetry(0)}, {hole, {}}, {x1_axis, symmetry(1)}, {right, loaded}, {top, loaded}};
+  return statement;
 }
 
 std::size_t n_on_hole(std::size_t n_particles) {

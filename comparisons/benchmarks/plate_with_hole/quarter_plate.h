@@ -20,6 +20,10 @@ enum Side : int { x2_axis = 1, hole = 2, x1_axis = 3, right = 4, top = 5 };
 /// Counter-clockwise, from the x1 axis.
 std::vector<problems::BoundaryPiece> boundary(const QuarterPlate &plate);
 
+/// Symmetry on the axes, the tractions of `exact` on the outer edges, none at the hole.
+problems::PlaneStatement statement(const QuarterPlate &plate, const problems::Material &material,
+                                   const problems::ExactSolution &exact);
+
 /// Particles on the quarter circle of a cloud of n: 11 of 188 and 21 of 686, as in the papers.
 std::size_t n_on_hole(std::size_t n_particles);
 
