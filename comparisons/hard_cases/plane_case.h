@@ -52,10 +52,10 @@ double displacement_error(const methods::Solution &solution, const std::vector<P
 Measurement measure(const std::string &method, const PlaneSetup &setup, const Field &field,
                     const std::map<std::string, scene::Value> &keys = {}, const std::vector<Point2> &points = {});
 
-/// One component of the displacement or stress at a point, and the method's warnings.
 /// Adds the indicators of the error, and warnings where they are above their limits.
 void check(const methods::Solution &solution, const PlaneSetup &setup, Measurement &measurement);
 
+/// One component of the displacement or stress at a point, and the method's warnings.
 Measurement measure_at(const std::string &method, const PlaneSetup &setup, const char *quantity, std::size_t component,
                        const Point2 &point, double reference, const std::map<std::string, scene::Value> &keys = {});
 

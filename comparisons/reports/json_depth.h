@@ -13,7 +13,7 @@ class JsonDepth final : public nlohmann::json_sax<nlohmann::json> {
 public:
   /// False if the bytes are nested too deep; whether they are complete, the parser says.
   template <typename Bytes>
-  static bool is_bounded(const Bytes &bytes, nlohmann::detail::input_format_t format) {
+  static bool is_bounded(const Bytes &bytes, nlohmann::json::input_format_t format) {
     JsonDepth depth;
     nlohmann::json::sax_parse(bytes.begin(), bytes.end(), &depth, format);
     return !depth.too_deep_;

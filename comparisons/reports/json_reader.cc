@@ -280,7 +280,7 @@ Results from_json(const Json &json) {
 }
 
 Results parse_results(std::string_view text) {
-  if (!JsonDepth::is_bounded(text, nlohmann::detail::input_format_t::json))
+  if (!JsonDepth::is_bounded(text, nlohmann::json::input_format_t::json))
     throw ResultsError("", fmt::format("this is no results file: more than {} levels of brackets", largest_json_depth));
   Json json;
   try {

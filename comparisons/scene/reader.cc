@@ -1,13 +1,13 @@
 #include "comparisons/scene/reader.h"
 
 #include "comparisons/scene/document.h"
+#include "comparisons/scene/hash.h"
 #include "comparisons/scene/overrides.h"
 #include "comparisons/scene/scene_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <tuple>
 #include <utility>
 
@@ -15,19 +15,12 @@ namespace comparisons::scene {
 
 namespace {
 
-/// FNV-1a, 64 bit, of the text and the overrides, each followed by a zero byte.
 std::string hash_of(const std::string &text, std::span<const std::string> overrides) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  const auto add = [&](const std::string &bytes) {
-    constexpr std::uint64_t prime = 0x100000001B3U;
-    for (const char c : bytes)
-      hash = (hash ^ static_cast<unsigned char>(c)) * prime;
-    hash *= prime; // the zero byte
-  };
-  add(text);
+  Hash hash;
+  hash.add(text);
   for (const auto &text_of_override : overrides)
-    add(text_of_override);
-  return fmt::format("{:016x}", hash);
+    hash.add(text_of_override);
+  return hash.text();
 }
 
 /// A file's name may hold any bytes; messages and JSON need UTF-8.

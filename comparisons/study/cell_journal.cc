@@ -2,12 +2,12 @@
 
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json.h"
+#include "comparisons/scene/hash.h"
 #include "comparisons/scene/reader.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <fcntl.h>
 #include <sstream>
 #include <system_error>
@@ -19,22 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Fnv {
-public:
-  void add(const std::string &text) {
-    for (const char c : text)
-      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * prime;
-    hash_ *= prime; // a zero byte
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
-private:
-  static constexpr std::uint64_t prime = 0x100000001b3U;
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
-};
-
 /// Meshes, clouds, references: whatever text of the scene is the name of a file.
-void add_files(const nlohmann::ordered_json &json, const fs::path &folder, Fnv &hash) {
+void add_files(const nlohmann::ordered_json &json, const fs::path &folder, scene::Hash &hash) {
   if (json.is_structured()) {
     for (const auto &item : json)
       add_files(item, folder, hash);
@@ -62,7 +48,7 @@ std::string key_of(const std::string &identity, const reports::Cell &cell) {
 } // namespace
 
 std::string identity_of(const scene::Scene &scene, const reports::Program &program, const reports::Machine &machine) {
-  Fnv hash;
+  scene::Hash hash;
   hash.add(scene.hash);
   for (const auto &text : {program.version, program.commit, program.build_type, program.flags, machine.cpu,
                            machine.blas, fmt::format("{} {}", machine.cores, machine.memory_bytes)})

@@ -28,8 +28,8 @@ struct KeptCell {
 /// The cells of a run with the repeats so far, kept beside its results while it goes on, so that a run which was
 /// interrupted or killed goes on where it was.
 ///
-/// One line of JSON for every run of a cell, on the disk before the next one begins: {"identity", "results": {"cells":
-/// [one]}, "samples", "done"}; the last one of a cell counts. A line that a kill cut off is passed over.
+/// One line of JSON whenever there is more of a cell, on the disk before the next run begins: {"identity", "results":
+/// {"cells": [one]}, "samples", "done"}; the last one of a cell counts. A line that a kill cut off is passed over.
 class CellJournal {
 public:
   /// @param resume take the cells that the file holds; else an older file is removed

@@ -2,6 +2,7 @@
 
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/json_depth.h"
+#include "comparisons/scene/hash.h"
 #include "comparisons/study/experiment.h"
 
 #include <fmt/format.h>
@@ -19,22 +20,7 @@ namespace {
 constexpr const char *format_name = "petrov checkpoint";
 constexpr int schema = 1;
 
-class Fnv {
-public:
-  void add(const void *data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      hash_ ^= static_cast<const unsigned char *>(data)[i];
-      hash_ *= 0x100000001b3ULL;
-    }
-  }
-  void add(const std::string &text) { add(text.data(), text.size() + 1); }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
-private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
-
-void add(Fnv &hash, const scene::Parameters &parameters) {
+void add(scene::Hash &hash, const scene::Parameters &parameters) {
   for (const auto &parameter : parameters.all())
     if (parameter.declaration.name != "checkpoint_every" && parameter.declaration.name != "resume") {
       hash.add(parameter.declaration.name);
@@ -44,7 +30,7 @@ void add(Fnv &hash, const scene::Parameters &parameters) {
 
 /// Of all values by name.
 std::string checksum(const meshless::dynamics::State &state) {
-  Fnv hash;
+  scene::Hash hash;
   for (const auto &field : state) {
     hash.add(field.name);
     hash.add(field.values.data(), field.values.size_bytes());
@@ -56,7 +42,7 @@ std::string checksum(const meshless::dynamics::State &state) {
 
 std::string identity_of(const scene::Scene &scene, const scene::ProblemVariant &variant,
                         const scene::MethodRequest &request, const scene::Level &level) {
-  Fnv hash;
+  scene::Hash hash;
   hash.add(scene.benchmark);
   add(hash, variant.parameters);
   add(hash, scene.material);
@@ -106,7 +92,7 @@ Measured parse_checkpoint(const std::string &bytes, const std::string &name, con
   const auto fail = [&](const std::string &what) {
     throw CheckpointError(fmt::format("checkpoint {}: {}", name, what));
   };
-  if (!reports::JsonDepth::is_bounded(bytes, nlohmann::detail::input_format_t::cbor))
+  if (!reports::JsonDepth::is_bounded(bytes, nlohmann::json::input_format_t::cbor))
     fail("no checkpoint of this program: nested too deep; remove it, or set time.resume = false");
   nlohmann::json json(nlohmann::json::value_t::discarded);
   try {
@@ -130,7 +116,7 @@ Measured parse_checkpoint(const std::string &bytes, const std::string &name, con
   } catch (const nlohmann::json::exception &) {
     fail("a field is missing");
   }
-  Fnv hash;
+  scene::Hash hash;
   for (std::size_t f = 0; f < state.size(); ++f) {
     if (values[f].size() != state[f].values.size())
       fail(fmt::format("the field '{}' has {} values, the run needs {}", state[f].name, values[f].size(),

@@ -18,11 +18,15 @@ namespace {
 
 /// A cell that takes longer is run once.
 constexpr double long_cell_seconds = 10;
+/// Repeats that took less together are not worth a line of the journal, which holds all repeats so far: a thousand
+/// short ones would write half a million.
+constexpr double least_kept_seconds = 0.1;
 
 /// A cell with the seconds of its repeats.
 struct Measured : KeptCell {
   CellTask task;
   bool warm = false; ///< has run in this process
+  double unkept_seconds = 0;
 };
 
 /// The cells of a scene in the order of the tables: variant, method, level.
@@ -199,7 +203,12 @@ private:
     }
     keep_seconds(measured, cell);
     measured.cell.memory_bytes = std::max(measured.cell.memory_bytes, cell.memory_bytes);
-    keep(measured);
+    if (const auto total = cell.seconds.find("total"); total != cell.seconds.end())
+      measured.unkept_seconds += total->second.median;
+    if (measured.unkept_seconds >= least_kept_seconds || n_repeats(measured) >= scene_.study.integer("repeats")) {
+      keep(measured);
+      measured.unkept_seconds = 0;
+    }
   }
 
   static void keep_seconds(Measured &measured, const reports::Cell &cell) {

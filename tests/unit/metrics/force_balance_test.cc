@@ -2,40 +2,28 @@
 
 #include "comparisons/metrics/force_balance.h"
 #include "comparisons/problems/boundary_quadrature.h"
+#include "unit/metrics/given_stress.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace {
 
 using namespace comparisons;
+using metrics_tests::GivenStress;
 using problems::Point2;
 using problems::Vector2;
 
 constexpr double pi = std::numbers::pi;
 
 /// sigma11 = a + b x2, sigma22 = c, sigma12 = d: in equilibrium without body force, times a factor.
-class LinearStress final : public methods::Solution {
-public:
-  explicit LinearStress(double factor) : factor_(factor) {}
-  std::vector<std::string> fields() const override { return {"stress"}; }
-  std::size_t n_components(std::string_view) const override { return 3; }
-  void evaluate(std::string_view field, std::span<const Point2> points, std::span<double> values) const override {
-    if (field != "stress")
-      throw std::invalid_argument("stress only");
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      values[3 * i] = factor_ * (2 + 3 * points[i][1]);
-      values[3 * i + 1] = factor_ * -1;
-      values[3 * i + 2] = factor_ * .5;
-    }
-  }
-
-private:
-  double factor_;
-};
+GivenStress linear_stress(double factor) {
+  return GivenStress([factor](const Point2 &x) -> GivenStress::Stress {
+    return {factor * (2 + 3 * x[1]), factor * -1, factor * .5};
+  });
+}
 
 /// Quarter ring between the radii 1 and 2: bottom held, the rest loaded by the tractions of the field.
 problems::PlaneStatement quarter_ring() {
@@ -84,7 +72,7 @@ TEST(BoundaryQuadrature, lengths_and_normals_of_lines_and_arcs) {
 
 TEST(ForceBalance, an_exact_stress_balances_its_loads) {
   const auto statement = quarter_ring();
-  const auto exact = metrics::equilibrium(LinearStress(1), statement, {});
+  const auto exact = metrics::equilibrium(linear_stress(1), statement, {});
   EXPECT_LT(exact.imbalance, 1e-13);
   // Bottom, normal (0, -1): the support's force is minus (sigma12, sigma22) times the length.
   EXPECT_NEAR(exact.boundary.at(0)[0], -.5, 1e-13);
@@ -93,7 +81,7 @@ TEST(ForceBalance, an_exact_stress_balances_its_loads) {
 
 TEST(ForceBalance, a_wrong_stress_leaves_its_share) {
   const auto statement = quarter_ring();
-  const auto wrong = metrics::equilibrium(LinearStress(1.1), statement, {});
+  const auto wrong = metrics::equilibrium(linear_stress(1.1), statement, {});
   // The magnitude of the tractions on the arcs and on the line x1 = 0, by Simpson's rule.
   const auto traction = [](double x2, double n1, double n2) {
     return std::hypot((2 + 3 * x2) * n1 + .5 * n2, .5 * n1 - n2);
@@ -121,7 +109,7 @@ TEST(ForceBalance, loads_that_balance_among_themselves_count) {
   };
   for (const int id : {2, 3})
     statement.conditions.at(id).traction = {};
-  const auto result = metrics::equilibrium(LinearStress(1), statement, {});
+  const auto result = metrics::equilibrium(linear_stress(1), statement, {});
   // The integral of 2e6 |cos t - sin t| over the arc of radius 2 is 8e6 (sqrt 2 - 1).
   // The kink at the diagonal costs the quadrature some digits.
   EXPECT_NEAR(result.imbalance / std::hypot(.5, 1) * 8e6 * (std::sqrt(2) - 1), 1, 1e-4);
@@ -134,7 +122,7 @@ TEST(ForceBalance, a_body_held_all_around_has_a_scale) {
     condition = statement.conditions.at(0);
   for (auto &piece : statement.regions[0].boundary)
     piece.id = 0;
-  EXPECT_LT(metrics::equilibrium(LinearStress(1), statement, {}).imbalance, 1e-13);
+  EXPECT_LT(metrics::equilibrium(linear_stress(1), statement, {}).imbalance, 1e-13);
 }
 
 TEST(ForceBalance, a_body_force_counts) {
@@ -146,7 +134,7 @@ TEST(ForceBalance, a_body_force_counts) {
   problems::Quadrature area;
   area.points = {{1.2, .5}, {.5, 1.2}};
   area.weights = {1, 2};
-  EXPECT_NEAR(metrics::equilibrium(LinearStress(1), statement, area).body[0], 21, 1e-13);
+  EXPECT_NEAR(metrics::equilibrium(linear_stress(1), statement, area).body[0], 21, 1e-13);
 }
 
 } // namespace

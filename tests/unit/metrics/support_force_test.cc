@@ -3,39 +3,21 @@
 
 #include "comparisons/metrics/force_balance.h"
 #include "comparisons/metrics/support_force.h"
+#include "unit/metrics/given_stress.h"
 
 #include "meshless/linear_algebra/gauss_legendre.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <stdexcept>
 
 namespace {
 
 using namespace comparisons;
+using metrics_tests::GivenStress;
 using problems::Point2;
 using problems::Vector2;
-using Stress = std::array<double, 3>; // 11, 22, 12
-
-class GivenStress final : public methods::Solution {
-public:
-  explicit GivenStress(std::function<Stress(const Point2 &)> stress) : stress_(std::move(stress)) {}
-  std::vector<std::string> fields() const override { return {"stress"}; }
-  std::size_t n_components(std::string_view) const override { return 3; }
-  void evaluate(std::string_view field, std::span<const Point2> points, std::span<double> values) const override {
-    if (field != "stress")
-      throw std::invalid_argument("stress only");
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto s = stress_(points[i]);
-      std::copy(s.begin(), s.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    }
-  }
-
-private:
-  std::function<Stress(const Point2 &)> stress_;
-};
+using Stress = GivenStress::Stress;
 
 /// Cubic in x, in equilibrium with body_force().
 Stress exact(const Point2 &x) { return {2 + x[1] + x[0] * x[0], 1 - x[0] * x[1], .5 + x[0] - x[1] * x[1] * x[1]}; }
