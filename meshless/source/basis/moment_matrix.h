@@ -95,11 +95,13 @@ public:
 #pragma GCC unroll 10
       for (std::size_t k = 0; k < i; ++k)
         pivot -= factor_[i][k] * factor_[i][k] * pivots[k];
-      Pack ratio = pivot / abs(diagonal);
+      // Zeros, of a point without neighbours or of a singular matrix, are to be found and not to be divided by.
+      Pack ratio = pivot / one_for_zero(abs(diagonal));
       where(ratio != ratio, ratio) = 0;
       smallest = min(smallest, ratio);
       pivots[i] = pivot;
-      factor_[i][i] = 1 / pivot;
+      factor_[i][i] = 1 / one_for_zero(pivot);
+      where(pivot == 0, factor_[i][i]) = 0;
     }
     return smallest;
   }
@@ -147,6 +149,11 @@ public:
   }
 
 private:
+  static Pack one_for_zero(Pack x) {
+    where(x == 0, x) = 1;
+    return x;
+  }
+
   void solve_pivoted(Vector &b) const {
     std::array<double, n> lane_values;
     for (std::size_t lane = 0; lane < pivoted_.size(); ++lane) {

@@ -109,7 +109,8 @@ TEST(Effects, BytesOfAnEffectAreAllThatComesWithIt) {
     change(options);
     GasFlow gas(particles(), options);
     gas.step(0.1 * gas.stable_step());
-    const auto *usage = find(gas.usage(), name);
+    const auto all = gas.usage();
+    const auto *usage = find(all, name);
     ASSERT_NE(usage, nullptr) << name;
     EXPECT_GT(usage->bytes, n * sizeof(double)) << name;
     EXPECT_GT(usage->calls, 0) << name;
