@@ -7,6 +7,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
 namespace {
 
 using namespace meshless::cloud;
@@ -44,6 +48,42 @@ void all_neighbours(benchmark::State &state) {
   count(state, points.size());
 }
 
+/// A million random points, about 30 neighbours each in the plane and 60 in space: sorted by cells, then all lists.
+/// Counters: seconds of the sorting, lists a second without and with it.
+template <int dim>
+void million_random(benchmark::State &state) {
+  constexpr std::size_t n = 1'000'000;
+  Point<dim> high;
+  high.fill(1);
+  const auto points = sample_clouds::random_points<dim>(n, Point<dim>{}, high, 5);
+  const double ball = dim == 2 ? 30 : 60;
+  const double radius =
+      dim == 2 ? std::sqrt(ball / n / std::numbers::pi) : std::cbrt(ball / n * .75 / std::numbers::pi);
+  std::vector<Point<dim>> sorted(n);
+  double sorting = 0;
+  double searching = 0;
+  std::size_t entries = 0;
+  using Clock = std::chrono::steady_clock;
+  for (auto _ : state) {
+    const auto begin = Clock::now();
+    {
+      const CellList<dim> cells(points, radius);
+      for (std::size_t i = 0; i < n; ++i)
+        sorted[i] = points[static_cast<std::size_t>(cells.order()[i])];
+    }
+    const auto middle = Clock::now();
+    const CellList<dim> cells(sorted, radius);
+    entries = cells.all_within(radius).n_entries();
+    sorting += std::chrono::duration<double>(middle - begin).count();
+    searching += std::chrono::duration<double>(Clock::now() - middle).count();
+  }
+  const auto k = static_cast<double>(state.iterations());
+  state.counters["neighbours"] = static_cast<double>(entries) / n;
+  state.counters["sorting_seconds"] = sorting / k;
+  state.counters["lists_per_second"] = k * n / searching;
+  state.counters["with_sorting"] = k * n / (searching + sorting);
+}
+
 template <int dim>
 void all_neighbours_by_tree(benchmark::State &state) {
   const auto points = cloud_of<dim>(state.range(0));
@@ -76,6 +116,8 @@ void candidates(benchmark::State &state, bool varying) {
   count(state, points.size());
 }
 
+BENCHMARK(million_random<2>)->Unit(benchmark::kMillisecond);
+BENCHMARK(million_random<3>)->Unit(benchmark::kMillisecond);
 BENCHMARK(build_cell_list<2>)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);
 BENCHMARK(build_cell_list<3>)->Arg(30)->Unit(benchmark::kMillisecond);
 BENCHMARK(all_neighbours<2>)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);

@@ -43,7 +43,7 @@ void batch(benchmark::State &state, basis::Wanted wanted) {
   basis::PointBatch<dim> point_batch;
   point_batch.assign(std::span<const cloud::Point<dim>>(points));
   basis::CandidateBatch<dim> candidate_batch;
-  candidate_batch.assign(particles, candidates);
+  candidate_batch.assign(particles, candidates, centre);
   basis::ShapeFunctionValues<dim> values;
   typename basis::ShapeFunctions<dim>::Workspace workspace;
   for (auto _ : state)

@@ -9,13 +9,13 @@ namespace {
 
 using namespace plane_samples;
 
-void cantilever(benchmark::State &state, Method method) {
+void cantilever(benchmark::State &state, Method method, weak_form::IntegrationRule integration) {
   const Cantilever plate;
   const auto particles = plate.particles(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   const auto problem = plate.problem();
   SolveSeconds sum;
   for (auto _ : state) {
-    const auto solution = solve(method, problem, particles, {});
+    const auto solution = solve(method, problem, particles, {.integration = integration});
     sum.neighbours += solution.seconds.neighbours;
     sum.basis += solution.seconds.basis;
     sum.assembly += solution.seconds.assembly;
@@ -31,8 +31,10 @@ void cantilever(benchmark::State &state, Method method) {
 void levels(benchmark::internal::Benchmark *b) {
   b->Args({31, 7})->Args({61, 13})->Args({91, 19})->Unit(benchmark::kMillisecond);
 }
-BENCHMARK_CAPTURE(cantilever, strong, Method::strong)->Apply(levels);
-BENCHMARK_CAPTURE(cantilever, weak1, Method::weak1)->Apply(levels);
-BENCHMARK_CAPTURE(cantilever, weak2, Method::weak2)->Apply(levels);
+using weak_form::IntegrationRule;
+BENCHMARK_CAPTURE(cantilever, strong, Method::strong, IntegrationRule::paper)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1, Method::weak1, IntegrationRule::paper)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak2, Method::weak2, IntegrationRule::paper)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1_consistent, Method::weak1, IntegrationRule::consistent)->Apply(levels);
 
 } // namespace

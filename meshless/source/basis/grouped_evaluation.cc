@@ -55,12 +55,13 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
   typename ShapeFunctions<dim>::Workspace workspace;
   std::vector<cloud::Index> candidates;
   std::vector<cloud::Point<dim>> members;
+  cloud::Point<dim> centre{};
   const auto evaluate = [&](std::span<const std::size_t> group, std::span<const cloud::Index> taking_part) {
     members.clear();
     for (const std::size_t i : group)
       members.push_back(points[i]);
     batch.assign(std::span<const cloud::Point<dim>>(members));
-    candidate_batch.assign(particles, taking_part);
+    candidate_batch.assign(particles, taking_part, centre);
     const auto regularity = [&] {
       const linear_algebra::FloatingPointTraps traps;
       return basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
@@ -84,7 +85,6 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
         low[k] = std::min(low[k], points[sorted.order[i]][k]);
         high[k] = std::max(high[k], points[sorted.order[i]][k]);
       }
-    cloud::Point<dim> centre;
     for (int k = 0; k < dim; ++k)
       centre[k] = 0.5 * (low[k] + high[k]);
     // Slack of rounding, so that the farthest point of the group is covered.

@@ -4,23 +4,13 @@ namespace meshless::basis {
 
 namespace {
 
+using linear_algebra::load;
 using linear_algebra::n_lanes;
 using linear_algebra::Pack;
 using linear_algebra::store;
 
 template <int dim>
 using Offset = std::array<Pack, dim>;
-
-/// Distance squared over h_J squared.
-template <int dim>
-Pack scaled_distance_squared(const Offset<dim> &x, const CandidateBatch<dim> &candidates, std::size_t j) {
-  Pack s_squared = 0;
-  for (int k = 0; k < dim; ++k) {
-    const Pack s = (candidates.coordinate(k)[j] - x[k]) * candidates.inverse_h()[j];
-    s_squared += s * s;
-  }
-  return s_squared;
-}
 
 /// V_J G / h_J^dim.
 template <int dim>
@@ -31,35 +21,62 @@ double amount(const CandidateBatch<dim> &candidates, std::size_t j, double norma
   return result;
 }
 
+/// Distance squared over h_J squared of the candidates inside the support of a lane, and which they are. Without a
+/// branch: whether a candidate is a neighbour cannot be foreseen.
+/// @returns how many they are
+template <int dim>
+std::size_t find_neighbours(const Offset<dim> &x, const CandidateBatch<dim> &candidates, double limit,
+                            cloud::Index *active, double *squares) {
+  std::array<const double *, dim> coordinates;
+  for (int k = 0; k < dim; ++k)
+    coordinates[k] = candidates.coordinate(k);
+  const double *inverse_h = candidates.inverse_h();
+  const std::size_t n = candidates.size();
+  const Offset<dim> own = x; // a copy that no store can change
+  std::size_t n_active = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    Pack s_squared = 0;
+    for (int k = 0; k < dim; ++k) {
+      const Pack d = coordinates[k][j] - own[k];
+      s_squared += d * d;
+    }
+    s_squared *= inverse_h[j] * inverse_h[j];
+    store(s_squared, squares + n_active * n_lanes);
+    active[n_active] = static_cast<cloud::Index>(j);
+    n_active += any_of(s_squared < limit);
+  }
+  return n_active;
+}
+
 /// Flattened: the compiler must see the exponential function to compute it once for value, slope and curvature.
-template <int dim, typename Kernel>
-[[gnu::flatten]] void compute(const Kernel &kernel, const Weighing &weighing, const Offset<dim> &x,
-                              const CandidateBatch<dim> &candidates, WeightDerivatives derivatives,
+template <int dim, WeightDerivatives derivatives, typename Kernel>
+[[gnu::flatten]] void compute(const Kernel &given, const Weighing &weighing, const Offset<dim> &x,
+                              const CandidateBatch<dim> &candidates,
                               typename ShapeFunctions<dim>::Workspace &workspace) {
+  const Kernel kernel = given;
   const double support = kernel.support();
   const double limit = edge_limit(support, weighing.edge);
   // Arguments stay inside the support, where the kernel holds.
   const double largest = std::min(limit, support * support);
-  const double normalisation = kernel.normalisation(dim);
-  workspace.active.clear();
-  for (std::size_t j = 0; j < candidates.size(); ++j) {
-    Pack s_squared = scaled_distance_squared<dim>(x, candidates, j);
-    const auto inside = s_squared < limit;
-    if (none_of(inside))
-      continue;
+  double *weights = workspace.weights.data();
+  double *slopes = workspace.slopes.data();
+  double *curvatures = workspace.curvatures.data();
+  workspace.active.resize(candidates.size());
+  const std::size_t n_active = find_neighbours<dim>(x, candidates, limit, workspace.active.data(), weights);
+  workspace.active.resize(n_active);
+  for (std::size_t a = 0; a < n_active; ++a) {
+    Pack s_squared = load(weights + a * n_lanes);
+    const auto outside = !(s_squared < limit);
     s_squared = min(s_squared, Pack(largest));
-    const std::size_t a = workspace.active.size() * n_lanes;
-    workspace.active.push_back(static_cast<cloud::Index>(j));
-    const double factor = weighing.volumes ? amount(candidates, j, normalisation) : 1;
-    const auto keep = [&](Pack quantity, std::vector<double> &array) {
-      where(!inside, quantity) = 0;
-      store(weighing.volumes ? quantity * factor : quantity, &array[a]);
+    const auto keep = [&](Pack quantity, double *array) {
+      where(outside, quantity) = 0;
+      store(quantity, array + a * n_lanes);
     };
-    keep(kernel.value(s_squared), workspace.weights);
-    if (derivatives == WeightDerivatives::none)
+    keep(kernel.value(s_squared), weights);
+    if constexpr (derivatives == WeightDerivatives::none)
       continue;
     Pack slope = kernel.slope(s_squared);
-    if (derivatives == WeightDerivatives::second) {
+    if constexpr (derivatives == WeightDerivatives::second) {
       const auto centre = s_squared == 0;
       const Pack curvature = kernel.curvature(s_squared);
       where(centre, slope) = curvature; // where every direction is radial
@@ -67,9 +84,21 @@ template <int dim, typename Kernel>
       where(centre, divisor) = 1; // 0 / 0 there, even if it is thrown away, would trap in Debug builds
       Pack radial = (curvature - slope) / divisor;
       where(centre, radial) = 0;
-      keep(radial, workspace.curvatures);
+      keep(radial, curvatures);
     }
-    keep(slope, workspace.slopes);
+    keep(slope, slopes);
+  }
+  if (!weighing.volumes)
+    return;
+  const double normalisation = kernel.normalisation(dim);
+  for (std::size_t a = 0; a < n_active; ++a) {
+    const double factor = amount(candidates, static_cast<std::size_t>(workspace.active[a]), normalisation);
+    const auto scale = [&](double *array) { store(load(array + a * n_lanes) * factor, array + a * n_lanes); };
+    scale(weights);
+    if constexpr (derivatives != WeightDerivatives::none)
+      scale(slopes);
+    if constexpr (derivatives == WeightDerivatives::second)
+      scale(curvatures);
   }
 }
 
@@ -78,8 +107,16 @@ template <int dim, typename Kernel>
 template <int dim>
 void compute_weights(const Weighing &weighing, const std::array<Pack, dim> &x, const CandidateBatch<dim> &candidates,
                      WeightDerivatives derivatives, typename ShapeFunctions<dim>::Workspace &workspace) {
-  std::visit([&](const auto &kernel) { compute<dim>(kernel, weighing, x, candidates, derivatives, workspace); },
-             weighing.kernel);
+  std::visit(
+      [&](const auto &kernel) {
+        if (derivatives == WeightDerivatives::none)
+          compute<dim, WeightDerivatives::none>(kernel, weighing, x, candidates, workspace);
+        else if (derivatives == WeightDerivatives::first)
+          compute<dim, WeightDerivatives::first>(kernel, weighing, x, candidates, workspace);
+        else
+          compute<dim, WeightDerivatives::second>(kernel, weighing, x, candidates, workspace);
+      },
+      weighing.kernel);
 }
 
 template <int dim>

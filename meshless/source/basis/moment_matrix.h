@@ -46,17 +46,6 @@ public:
   /// Leaves the factor uninitialised: it is large.
   MomentMatrix() {} // NOLINT(modernize-use-equals-default): = default would set it to zero
 
-  static void add_moments(const Pack &weight, const Offset &d, Moments &moments) {
-    Moments terms;
-    terms[0] = weight;
-    moments[0] += weight;
-#pragma GCC unroll 28
-    for (std::size_t t = 1; t < n_moments; ++t) {
-      terms[t] = terms[MomentTerms::table.parent[t]] * d[MomentTerms::table.axis[t]];
-      moments[t] += terms[t];
-    }
-  }
-
   /// result -= C v
   static void subtract_product(const Moments &moments, const Vector &v, Vector &result) {
 #pragma GCC unroll 10

@@ -7,6 +7,17 @@
 
 namespace meshless::basis {
 
+namespace {
+
+/// An odd number of packs, each a line of the cache: the same pack of points of all candidates then lies in different
+/// sets of the cache, not in a few that overflow.
+std::size_t spread_over_cache(std::size_t stride) {
+  const std::size_t n_packs = stride / linear_algebra::n_lanes;
+  return n_packs == 0 ? 0 : (n_packs | 1) * linear_algebra::n_lanes;
+}
+
+} // namespace
+
 template <int dim>
 void PointBatch<dim>::assign(std::span<const cloud::Point<dim>> points) {
   size_ = points.size();
@@ -37,7 +48,10 @@ cloud::Point<dim> PointBatch<dim>::point(std::size_t i) const {
 }
 
 template <int dim>
-void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates) {
+void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates,
+                                 const cloud::Point<dim> &about) {
+  monomials_.degree = 0;
+  monomials_.centre = about;
   const std::size_t n = candidates.size();
   inverse_h_.resize(n);
   volumes_.resize(particles.has_volumes() ? n : 0);
@@ -60,7 +74,7 @@ void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::sp
 template <int dim>
 void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride) {
   n_candidates_ = n_candidates;
-  stride_ = stride;
+  stride_ = spread_over_cache(stride);
   std::size_t n_slots = 0;
   const auto assign = [&](int first, int count, bool on) {
     for (int i = 0; i < count; ++i)
@@ -70,7 +84,7 @@ void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candid
   assign(1, dim, wanted.gradient);
   assign(1 + dim, n_hessian, wanted.hessian);
   assign(1 + dim + n_hessian, dim, wanted.differentiated_gradient);
-  data_.resize(n_slots * n_candidates * stride);
+  data_.resize(n_slots * n_candidates * stride_);
 }
 
 template <int dim>

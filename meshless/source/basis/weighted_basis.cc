@@ -1,6 +1,8 @@
 #include "weighted_basis.h"
 
 #include "moment_matrix.h"
+#include "monomial_table.h"
+#include "neighbour_sums.h"
 
 #include <fmt/format.h>
 
@@ -22,26 +24,33 @@ using linear_algebra::store;
 /// without, 1e-12 with it).
 constexpr double refined_pivot_ratio = 1e-2;
 
+/// How far from the centre of the monomials the points may lie, in units of the scale (the mean h): rounding grows with
+/// the power 2 m of this distance over the width of the kernel.
+constexpr double largest_offset = 1.5;
+
 /// Shape functions phi_J = a . p_J W_J with C a = q, from the moments of all neighbours.
 ///
-/// The monomials p_J = p(xi_J - x_0) are taken about a fixed place x_0; phi_J(x) = p(x - x_0)^T C^-1(x) p_J W_J(x)
-/// is then differentiated at x = x_0, where q = p(x - x_0) and its derivatives are multiples of unit
-/// vectors: with C_k = sum p p^T W,k and C_kl = sum p p^T W,kl
+/// The monomials p_J = p(xi_J - x) are about the point; phi_J = p(0)^T C^-1 p_J W_J is differentiated with their centre
+/// held fast, where q and its derivatives are multiples of unit vectors: with C_k = sum p p^T W,k and C_kl = sum p p^T
+/// W,kl
 ///   C a_k  = q,k  - C_k a                        phi_J,k  = a_k . p_J W_J + a . p_J W_J,k
 ///   C a_kl = q,kl - C_k a_l - C_l a_k - C_kl a   phi_J,kl = a_kl . p_J W_J + a_k . p_J W_J,l + a_l . p_J W_J,k
 ///                                                           + a . p_J W_J,kl,
 /// which is Zhang & Batra 2008, (4.12) and (4.13), without derivatives of the monomials. The direct
 /// derivatives are C a = q,k and C a = q,kl alone.
+///
+/// Sums over neighbours are taken about one centre for all points, where the monomials of a neighbour are numbers in a
+/// table (NeighbourSums); moments are moved to the point and coefficients back from it (Translation).
 template <int dim, int m>
 class WeightedBasis final : public ShapeFunctions<dim> {
   using Matrix = MomentMatrix<dim, m>;
+  using Sums = NeighbourSums<dim, m>;
   using Terms = typename Matrix::Terms;
   using Offset = typename Matrix::Offset;
   using Moments = typename Matrix::Moments;
   using Vector = typename Matrix::Vector;
   using Values = ShapeFunctionValues<dim>;
   using typename ShapeFunctions<dim>::Workspace;
-  static constexpr std::size_t n = Matrix::n;
   static constexpr int first_hessian = 1 + dim;
   static constexpr int first_differentiated = 1 + dim + Values::n_hessian;
 
@@ -53,55 +62,27 @@ class WeightedBasis final : public ShapeFunctions<dim> {
     return Terms::index_of(exponents);
   }
 
-  /// What all steps at one pack of points share. Plain pointers, and handed on by value: behind a reference
-  /// every store of a pack would make the compiler read all of it again.
+  /// What all steps at one pack of points share.
   struct Place {
-    const cloud::Index *active;
-    std::size_t n_active;
+    Sums sums;
     const double *weights;
-    const double *slopes;
-    const double *curvatures;
-    std::array<const double *, dim> coordinates;
-    const double *inverse_h;
-    Offset x;
+    Offset offset; ///< of the points from the centre of the table, in units of the scale
     Values &values;
     std::size_t first;
     double scale;
     double inverse_scale;
     bool refine;
 
-    Pack weight(std::size_t a) const { return load(weights + a * n_lanes); }
-    double *row(int quantity, std::size_t a) const {
-      return values.row(quantity, static_cast<std::size_t>(active[a])) + first;
-    }
-
-    /// xi_J - x in units of the scale of the monomials.
-    Offset offset(std::size_t a) const {
-      const cloud::Index j = active[a];
-      Offset d;
-      for (int k = 0; k < dim; ++k)
-        d[k] = (coordinates[k][j] - x[k]) * inverse_scale;
-      return d;
-    }
-    Vector terms(std::size_t a) const {
-      Vector result;
-      Terms::evaluate(offset(a), result);
+    double *row(int quantity) const { return values.row(quantity, 0) + first; }
+    std::size_t stride() const { return values.stride(); }
+    Moments moments(const double *weights_) const {
+      auto result = sums.moments(weights_);
+      Translation<dim, 2 * m>::move_moments(offset, result);
       return result;
     }
-
-    /// dW_J / dx_k: s^2 falls as x moves towards the particle.
-    Pack weight_gradient(std::size_t a, const Offset &d, int k) const {
-      const double to_h = inverse_h[active[a]];
-      return -load(slopes + a * n_lanes) * (d[k] * scale) * (to_h * to_h);
-    }
-    /// d^2 W_J / dx_k dx_l
-    Pack weight_hessian(std::size_t a, const Offset &d, int k, int l) const {
-      const double per_h = inverse_h[active[a]];
-      const double to_h = scale * per_h;
-      Pack result = load(curvatures + a * n_lanes) * (d[k] * to_h) * (d[l] * to_h);
-      if (k == l)
-        result += load(slopes + a * n_lanes);
-      return result * (per_h * per_h);
+    Vector about_centre(Vector coefficients) const {
+      Translation<dim, m>::move_coefficients(offset, coefficients);
+      return coefficients;
     }
   };
 
@@ -111,7 +92,7 @@ public:
 
   double support() const override { return search_radius(kernels::support_of(weighing_.kernel), weighing_.edge); }
   int order() const override { return m; }
-  std::size_t n_terms() const override { return n; }
+  std::size_t n_terms() const override { return Matrix::n; }
 
   Regularity evaluate(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates, const Wanted &wanted,
                       Values &values, Workspace &workspace) const override {
@@ -130,63 +111,106 @@ public:
     workspace.slopes.resize(derivatives == WeightDerivatives::none ? 0 : n_weights);
     workspace.curvatures.resize(derivatives == WeightDerivatives::second ? n_weights : 0);
     Regularity regularity;
-    for (std::size_t first = 0; first < points.stride(); first += n_lanes)
+    for (std::size_t first = 0; first < points.stride(); first += n_lanes) {
+      if (!centre_table(points, first, candidates)) {
+        evaluate_points(points, first, candidates, wanted, values, workspace, regularity);
+        continue;
+      }
       evaluate_pack(points, candidates, first, wanted, derivatives, values, workspace, regularity);
+    }
     if (regularity.smallest_pivot_ratio <= singular_pivot_ratio)
       regularity.n_neighbours = count_neighbours<dim>(weighing_, points.point(regularity.worst_point), candidates);
     return regularity;
   }
 
 private:
+  /// A table of monomials with its centre near the points of the pack; false: they are too far from each other.
+  static bool centre_table(const PointBatch<dim> &points, std::size_t first, const CandidateBatch<dim> &candidates) {
+    auto &table = candidates.monomials();
+    const double limit = largest_offset * candidates.scale();
+    const auto near = [&](const cloud::Point<dim> &centre) {
+      Pack squared = 0;
+      for (int k = 0; k < dim; ++k) {
+        const Pack d = load(points.coordinate(k) + first) - centre[k];
+        squared += d * d;
+      }
+      return all_of(squared <= limit * limit);
+    };
+    cloud::Point<dim> centre = table.centre;
+    if (!near(centre)) {
+      for (int k = 0; k < dim; ++k)
+        centre[k] = reduce(load(points.coordinate(k) + first)) / n_lanes;
+      if (!near(centre))
+        return false;
+      table.degree = 0;
+    }
+    if (table.degree != 2 * m)
+      tabulate_monomials<dim, 2 * m>(candidates, centre);
+    return true;
+  }
+
+  /// The points of a pack one by one, where they are far from each other.
+  void evaluate_points(const PointBatch<dim> &points, std::size_t first, const CandidateBatch<dim> &candidates,
+                       const Wanted &wanted, Values &values, Workspace &workspace, Regularity &regularity) const {
+    PointBatch<dim> single;
+    for (std::size_t i = first; i < first + n_lanes; ++i) {
+      const auto x = points.point(std::min(i, points.size() - 1));
+      single.assign(std::span(&x, 1));
+      const auto own = evaluate(single, candidates, wanted, workspace.one_point, workspace);
+      if (i < points.size()) {
+        regularity.n_indefinite += own.n_indefinite;
+        note_regularity(own.smallest_pivot_ratio, i, regularity);
+      }
+      for (int quantity = 0; quantity < Values::n_quantities; ++quantity)
+        if (values.has(quantity))
+          for (std::size_t j = 0; j < candidates.size(); ++j)
+            values.row(quantity, j)[i] = workspace.one_point.row(quantity, j)[0];
+    }
+  }
+
   void evaluate_pack(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates, std::size_t first,
                      const Wanted &wanted, WeightDerivatives derivatives, Values &values, Workspace &workspace,
                      Regularity &regularity) const {
+    const auto &table = candidates.monomials();
+    const double inverse_scale = 1 / candidates.scale();
     Offset x;
-    for (int k = 0; k < dim; ++k)
+    Offset offset;
+    for (int k = 0; k < dim; ++k) {
       x[k] = load(points.coordinate(k) + first);
+      offset[k] = (x[k] - table.centre[k]) * inverse_scale;
+    }
     compute_weights<dim>(weighing_, x, candidates, derivatives, workspace);
-    zero_rows(values, first, candidates.size());
-    Place place{.active = workspace.active.data(),
-                .n_active = workspace.active.size(),
+    zero_rows(values, first, workspace.active);
+    Place place{.sums = {workspace.active.data(), workspace.active.size(), table.rows.data()},
                 .weights = workspace.weights.data(),
-                .slopes = workspace.slopes.data(),
-                .curvatures = workspace.curvatures.data(),
-                .coordinates = {},
-                .inverse_h = candidates.inverse_h(),
-                .x = x,
+                .offset = offset,
                 .values = values,
                 .first = first,
                 .scale = candidates.scale(),
-                .inverse_scale = 1 / candidates.scale(),
+                .inverse_scale = inverse_scale,
                 .refine = false};
-    for (int k = 0; k < dim; ++k)
-      place.coordinates[k] = candidates.coordinate(k);
-
-    Moments moments{};
-    for (std::size_t a = 0; a < place.n_active; ++a)
-      Matrix::add_moments(place.weight(a), place.offset(a), moments);
     Matrix matrix;
-    const Pack ratios = factorise(matrix, moments, first, points.size(), workspace, regularity);
+    const Pack ratios = factorise(matrix, place.moments(place.weights), first, points.size(), workspace, regularity);
     note_regularity(ratios, first, points.size(), regularity);
     place.refine = wanted.hessian || any_of(ratios < refined_pivot_ratio);
 
     if (wanted.value)
-      add_row(matrix, place, 0, 1, 0);
+      write_direct(matrix, place, 0, 1, 0);
     if (kind_ == DerivativeKind::direct) {
       if (wanted.gradient)
         for (int k = 0; k < dim; ++k)
-          add_row(matrix, place, 1 + static_cast<std::size_t>(k), place.inverse_scale, 1 + k);
+          write_direct(matrix, place, 1 + static_cast<std::size_t>(k), place.inverse_scale, 1 + k);
       if constexpr (m >= 2)
         if (wanted.hessian) {
           int kl = 0;
           for (int k = 0; k < dim; ++k)
             for (int l = k; l < dim; ++l, ++kl)
-              add_row(matrix, place, hessian_term(k, l), (k == l ? 2 : 1) * place.inverse_scale * place.inverse_scale,
-                      first_hessian + kl);
+              write_direct(matrix, place, hessian_term(k, l),
+                           (k == l ? 2 : 1) * place.inverse_scale * place.inverse_scale, first_hessian + kl);
         }
     }
     if (derivatives != WeightDerivatives::none)
-      add_differentiated(matrix, place, wanted, derivatives == WeightDerivatives::second);
+      write_differentiated(matrix, place, x, candidates, wanted, derivatives == WeightDerivatives::second, workspace);
   }
 
   /// The moment matrix of a kernel with negative values need not be positive definite: where its pivots are
@@ -203,129 +227,142 @@ private:
     return max(ratios, Pack(0));
   }
 
-  static void zero_rows(Values &values, std::size_t first, std::size_t n_candidates) {
+  /// Candidates that are no neighbours of any lane.
+  static void zero_rows(Values &values, std::size_t first, const std::vector<cloud::Index> &active) {
     const Pack zero = 0;
     for (int quantity = 0; quantity < Values::n_quantities; ++quantity)
-      if (values.has(quantity))
-        for (std::size_t j = 0; j < n_candidates; ++j)
+      if (values.has(quantity)) {
+        std::size_t j = 0;
+        for (const cloud::Index next : active) {
+          for (; j < static_cast<std::size_t>(next); ++j)
+            store(zero, values.row(quantity, j) + first);
+          ++j;
+        }
+        for (; j < values.n_candidates(); ++j)
           store(zero, values.row(quantity, j) + first);
+      }
   }
 
   static void note_regularity(const Pack &ratios, std::size_t first, std::size_t n_points, Regularity &regularity) {
     if (none_of(ratios < regularity.smallest_pivot_ratio))
       return;
     for (std::size_t lane = 0; lane < n_lanes && first + lane < n_points; ++lane)
-      if (ratios[lane] < regularity.smallest_pivot_ratio) {
-        regularity.smallest_pivot_ratio = ratios[lane];
-        regularity.worst_point = first + lane;
-      }
+      note_regularity(ratios[lane], first + lane, regularity);
+  }
+  /// Of singular points the first remains: which of them rounding makes the smallest says nothing.
+  static void note_regularity(double ratio, std::size_t point, Regularity &regularity) {
+    if (ratio < regularity.smallest_pivot_ratio && regularity.smallest_pivot_ratio > singular_pivot_ratio) {
+      regularity.smallest_pivot_ratio = ratio;
+      regularity.worst_point = point;
+    }
   }
 
   /// Writes row `term` of K (2.11), times `scale`.
-  [[gnu::noinline]] static void add_row(const Matrix &matrix, const Place place, std::size_t term, double scale,
-                                        int quantity) {
-    const Vector coefficients = matrix.unit_solution(term, scale);
-    for (std::size_t a = 0; a < place.n_active; ++a)
-      store(Matrix::dot(coefficients, place.terms(a)) * place.weight(a), place.row(quantity, a));
+  static void write_direct(const Matrix &matrix, const Place &place, std::size_t term, double scale, int quantity) {
+    place.sums.template write<1>({place.about_centre(matrix.unit_solution(term, scale))}, {place.weights},
+                                 place.row(quantity), place.stride());
     if (place.refine)
-      refine_row(matrix, place, term, scale, quantity);
+      refine(matrix, place, term, scale, quantity);
   }
 
   /// One step of refinement: what the row lacks to reproduce the monomials, sum_J phi_J p_J = e_term
   /// scale, is measured on the shape functions themselves, whose rounding is that of the result, not
   /// that of the moment matrix; the correction is added to them for the same reason.
-  static void refine_row(const Matrix &matrix, const Place place, std::size_t term, double scale, int quantity) {
-    Vector residual{};
-    residual[term] = scale;
-    for (std::size_t a = 0; a < place.n_active; ++a) {
-      const Vector terms = place.terms(a);
-      const Pack shape = load(place.row(quantity, a));
-      for (std::size_t t = 0; t < n; ++t)
-        residual[t] -= shape * terms[t];
-    }
+  static void refine(const Matrix &matrix, const Place &place, std::size_t term, double scale, int quantity) {
+    Vector residual = place.sums.reproduced(place.row(quantity), place.stride());
+    Translation<dim, m>::move_moments(place.offset, residual);
+    for (auto &entry : residual)
+      entry = -entry;
+    residual[term] += scale;
     matrix.solve(residual);
-    for (std::size_t a = 0; a < place.n_active; ++a) {
-      double *row = place.row(quantity, a);
-      store(load(row) + Matrix::dot(residual, place.terms(a)) * place.weight(a), row);
+    place.sums.add(place.about_centre(residual), place.weights, place.row(quantity), place.stride());
+  }
+
+  /// Derivatives of the weights by the point, as the weights themselves: dim first ones, then the second ones.
+  static void differentiate_weights(const Place &place, const Offset &x, const CandidateBatch<dim> &candidates,
+                                    bool second, Workspace &workspace) {
+    const std::size_t n_weights = place.sums.n_active * n_lanes;
+    auto &derivatives = workspace.weight_derivatives;
+    derivatives.resize((dim + (second ? Values::n_hessian : 0)) * n_weights);
+    for (std::size_t a = 0; a < place.sums.n_active; ++a) {
+      const auto j = static_cast<std::size_t>(place.sums.active[a]);
+      const double to_h = candidates.inverse_h()[j] * candidates.inverse_h()[j];
+      const Pack slope = load(&workspace.slopes[a * n_lanes]) * to_h;
+      Offset d;
+      for (int k = 0; k < dim; ++k) {
+        d[k] = candidates.coordinate(k)[j] - x[k];
+        // s^2 falls as x moves towards the particle
+        store(-slope * d[k], &derivatives[static_cast<std::size_t>(k) * n_weights + a * n_lanes]);
+      }
+      if (!second)
+        continue;
+      const Pack curvature = load(&workspace.curvatures[a * n_lanes]) * (to_h * to_h);
+      std::size_t kl = dim;
+      for (int k = 0; k < dim; ++k)
+        for (int l = k; l < dim; ++l, ++kl) {
+          Pack value = curvature * d[k] * d[l];
+          if (k == l)
+            value += slope;
+          store(value, &derivatives[kl * n_weights + a * n_lanes]);
+        }
     }
   }
 
   /// Derivatives of the shape function itself; formulas above.
-  [[gnu::noinline]] void add_differentiated(const Matrix &matrix, const Place place, const Wanted &wanted,
-                                            bool second) const {
+  void write_differentiated(const Matrix &matrix, const Place &place, const Offset &x,
+                            const CandidateBatch<dim> &candidates, const Wanted &wanted, bool second,
+                            Workspace &workspace) const {
+    differentiate_weights(place, x, candidates, second, workspace);
+    const auto derivative = [&](std::size_t which) {
+      return workspace.weight_derivatives.data() + which * place.sums.n_active * n_lanes;
+    };
     const Vector g = matrix.unit_solution(0, 1);
-    const bool as_gradient = kind_ == DerivativeKind::differentiated && wanted.gradient;
-    std::array<Moments, dim> all_moments; // of C_k, kept for the second derivatives
+    const Vector g_centre = place.about_centre(g);
+    std::array<Moments, dim> moments; // of C_k
     std::array<Vector, dim> g_k;
+    std::array<Vector, dim> g_k_centre;
     for (int k = 0; k < dim; ++k) {
-      Moments moments{};
-      for (std::size_t a = 0; a < place.n_active; ++a) {
-        const Offset d = place.offset(a);
-        Matrix::add_moments(place.weight_gradient(a, d, k), d, moments);
-      }
-      Vector right{};
-      right[1 + static_cast<std::size_t>(k)] = place.inverse_scale;
-      Matrix::subtract_product(moments, g, right);
-      matrix.solve(right);
+      const auto axis = static_cast<std::size_t>(k);
+      moments[k] = place.moments(derivative(axis));
+      g_k[k] = Vector{};
+      g_k[k][1 + axis] = place.inverse_scale;
+      Matrix::subtract_product(moments[k], g, g_k[k]);
+      matrix.solve(g_k[k]);
+      g_k_centre[k] = place.about_centre(g_k[k]);
+      const auto write = [&](int quantity) {
+        place.sums.template write<2>({g_k_centre[k], g_centre}, {place.weights, derivative(axis)}, place.row(quantity),
+                                     place.stride());
+        // Its monomials are reproduced as those of the direct derivative: sum_J phi_J,k p_J = e_k.
+        if (place.refine)
+          refine(matrix, place, 1 + axis, place.inverse_scale, quantity);
+      };
       if (wanted.differentiated_gradient)
-        add_first(matrix, place, k, g, right, first_differentiated + k);
-      if (as_gradient)
-        add_first(matrix, place, k, g, right, 1 + k);
-      if (second) {
-        all_moments[k] = moments;
-        g_k[k] = right;
+        write(first_differentiated + k);
+      if (kind_ == DerivativeKind::differentiated && wanted.gradient)
+        write(1 + k);
+    }
+    if (!second)
+      return;
+    std::size_t kl = 0;
+    for (int k = 0; k < dim; ++k)
+      for (int l = k; l < dim; ++l, ++kl) {
+        // Order 1 has no such monomial: the second derivative of all its terms is zero.
+        const std::size_t term = m >= 2 ? hessian_term(k, l) : 0;
+        const double unit = m >= 2 ? (k == l ? 2 : 1) / (place.scale * place.scale) : 0;
+        Vector g_kl{};
+        g_kl[term] = unit;
+        Matrix::subtract_product(moments[k], g_k[l], g_kl);
+        Matrix::subtract_product(moments[l], g_k[k], g_kl);
+        Matrix::subtract_product(place.moments(derivative(dim + kl)), g, g_kl);
+        matrix.solve(g_kl);
+        const int quantity = first_hessian + static_cast<int>(kl);
+        place.sums.template write<4>({place.about_centre(g_kl), g_k_centre[k], g_k_centre[l], g_centre},
+                                     {place.weights, derivative(static_cast<std::size_t>(l)),
+                                      derivative(static_cast<std::size_t>(k)), derivative(dim + kl)},
+                                     place.row(quantity), place.stride());
+        if (place.refine)
+          refine(matrix, place, term, unit, quantity);
       }
-    }
-    if (second) {
-      int kl = 0;
-      for (int k = 0; k < dim; ++k)
-        for (int l = k; l < dim; ++l, ++kl)
-          add_second(matrix, place, k, l, g, g_k, all_moments, first_hessian + kl);
-    }
-  }
-
-  static void add_first(const Matrix &matrix, const Place place, int k, const Vector g, const Vector g_k,
-                        int quantity) {
-    for (std::size_t a = 0; a < place.n_active; ++a) {
-      const Offset d = place.offset(a);
-      Vector terms;
-      Terms::evaluate(d, terms);
-      store(Matrix::dot(g_k, terms) * place.weight(a) + Matrix::dot(g, terms) * place.weight_gradient(a, d, k),
-            place.row(quantity, a));
-    }
-    // Its monomials are reproduced as those of the direct derivative: sum_J phi_J,k p_J = e_k.
-    if (place.refine)
-      refine_row(matrix, place, 1 + static_cast<std::size_t>(k), place.inverse_scale, quantity);
-  }
-
-  [[gnu::noinline]] static void add_second(const Matrix &matrix, const Place place, int k, int l, const Vector &g,
-                                           const std::array<Vector, dim> &g_k, const std::array<Moments, dim> &moments,
-                                           int quantity) {
-    Moments second{}; // of C_kl
-    for (std::size_t a = 0; a < place.n_active; ++a) {
-      const Offset d = place.offset(a);
-      Matrix::add_moments(place.weight_hessian(a, d, k, l), d, second);
-    }
-    // Order 1 has no such monomial: the second derivative of all its terms is zero.
-    const std::size_t term = m >= 2 ? hessian_term(k, l) : 0;
-    const double unit = m >= 2 ? (k == l ? 2 : 1) / (place.scale * place.scale) : 0;
-    Vector g_kl{};
-    g_kl[term] = unit;
-    Matrix::subtract_product(moments[k], g_k[l], g_kl);
-    Matrix::subtract_product(moments[l], g_k[k], g_kl);
-    Matrix::subtract_product(second, g, g_kl);
-    matrix.solve(g_kl);
-    for (std::size_t a = 0; a < place.n_active; ++a) {
-      const Offset d = place.offset(a);
-      Vector terms;
-      Terms::evaluate(d, terms);
-      store(Matrix::dot(g_kl, terms) * place.weight(a) + Matrix::dot(g_k[k], terms) * place.weight_gradient(a, d, l) +
-                Matrix::dot(g_k[l], terms) * place.weight_gradient(a, d, k) +
-                Matrix::dot(g, terms) * place.weight_hessian(a, d, k, l),
-            place.row(quantity, a));
-    }
-    if (place.refine)
-      refine_row(matrix, place, term, unit, quantity);
   }
 
   Weighing weighing_;

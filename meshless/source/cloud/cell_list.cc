@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace meshless::cloud {
 
 namespace {
+
+/// Particles whose distances are computed at a time, the coordinates of as many behind the last one included.
+constexpr std::size_t block = 32;
 
 /// Calls f(row begin, row end) for the cells in the box [low, high], a contiguous run along the
 /// last axis at a time.
@@ -73,11 +77,14 @@ CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
     offsets_[c] += offsets_[c - 1];
   std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
   members_.resize(positions.size());
-  sorted_positions_.resize(positions.size());
+  for (auto &coordinate : sorted_)
+    coordinate.assign(positions.size() + block, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t slot = next[cell_index[i]]++;
+    in_order_ = in_order_ && slot == i;
     members_[slot] = static_cast<Index>(i);
-    sorted_positions_[slot] = positions[i];
+    for (int k = 0; k < dim; ++k)
+      sorted_[k][slot] = positions[i][k];
   }
 }
 
@@ -92,31 +99,81 @@ std::array<std::ptrdiff_t, dim> CellList<dim>::cell_of(const Point<dim> &point) 
 }
 
 template <int dim>
-void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
+template <typename Visitor>
+void CellList<dim>::visit_runs(const Point<dim> &centre, double radius, const Visitor &visit) const {
   Point<dim> low = centre;
   Point<dim> high = centre;
   for (int k = 0; k < dim; ++k) {
     low[k] -= radius;
     high[k] += radius;
   }
-  const double radius_squared = radius * radius;
   for_each_run<dim>(cell_of(low), cell_of(high), n_cells_, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    const std::size_t last = offsets_[static_cast<std::size_t>(end)];
-    for (std::size_t slot = offsets_[static_cast<std::size_t>(begin)]; slot < last; ++slot)
-      if (distance_squared<dim>(sorted_positions_[slot], centre) < radius_squared)
-        result.push_back(members_[slot]);
+    visit(offsets_[static_cast<std::size_t>(begin)], offsets_[static_cast<std::size_t>(end)]);
+  });
+}
+
+/// Whether a particle is near cannot be foreseen: all slots are written, and those that do not count written over.
+/// @param found room for every slot of the run
+template <int dim>
+Index *CellList<dim>::write_within(std::size_t begin, std::size_t end, const Point<dim> &centre, double radius_squared,
+                                   Index *found) const {
+  std::array<double, block> squares;
+  for (; begin < end; begin += block) {
+    const std::size_t size = std::min(block, end - begin);
+    for (std::size_t i = 0; i < block; ++i) { // of the whole block, in vectors
+      double sum = 0;
+      for (int k = 0; k < dim; ++k) {
+        const double d = sorted_[k][begin + i] - centre[k];
+        sum += d * d;
+      }
+      squares[i] = sum;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      *found = static_cast<Index>(begin + i);
+      found += squares[i] < radius_squared;
+    }
+  }
+  return found;
+}
+
+template <int dim>
+void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
+  visit_runs(centre, radius, [&](std::size_t begin, std::size_t end) {
+    const std::size_t n = result.size();
+    result.resize(n + (end - begin));
+    Index *last = write_within(begin, end, centre, radius * radius, result.data() + n);
+    result.resize(static_cast<std::size_t>(last - result.data()));
+    if (!in_order_)
+      for (std::size_t i = n; i < result.size(); ++i)
+        result[i] = members_[static_cast<std::size_t>(result[i])];
   });
 }
 
 template <int dim>
 NeighbourLists CellList<dim>::all_within(double radius) const {
+  constexpr std::size_t n_sampled = 1000; // rows from which the length of all is guessed
   std::vector<std::size_t> offsets(1, 0);
   offsets.reserve(positions_.size() + 1);
   std::vector<Index> indices;
-  for (const auto &x : positions_) {
-    append_within(x, radius, indices);
-    std::sort(indices.begin() + static_cast<std::ptrdiff_t>(offsets.back()), indices.end());
+  std::vector<Index> row;
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    std::size_t n = 0;
+    visit_runs(positions_[i], radius, [&](std::size_t begin, std::size_t end) {
+      if (row.size() < n + (end - begin))
+        row.resize(2 * (n + (end - begin)));
+      Index *last = write_within(begin, end, positions_[i], radius * radius, row.data() + n);
+      n = static_cast<std::size_t>(last - row.data());
+    });
+    const auto found = row.begin() + static_cast<std::ptrdiff_t>(n);
+    if (!in_order_) { // else runs and what they hold come in order
+      for (auto member = row.begin(); member != found; ++member)
+        *member = members_[static_cast<std::size_t>(*member)];
+      std::sort(row.begin(), found);
+    }
+    indices.insert(indices.end(), row.begin(), found);
     offsets.push_back(indices.size());
+    if (i + 1 == n_sampled)
+      indices.reserve(indices.size() * (positions_.size() + positions_.size() / 10) / n_sampled);
   }
   return {std::move(offsets), std::move(indices)};
 }

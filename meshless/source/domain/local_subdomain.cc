@@ -68,7 +68,11 @@ struct SubdomainRule::Scratch {
   std::vector<double> splits;
   std::vector<Meeting> meetings;
 
-  void add_whole_disc(const SubdomainPoints &n, SubdomainQuadrature &quadrature) const;
+  /// The whole disc of radius 1 about the origin: all others are that one, moved and scaled.
+  SubdomainQuadrature unit_disc;
+
+  void make_unit_disc(const SubdomainPoints &n);
+  void add_whole_disc(SubdomainQuadrature &quadrature) const;
   void add_whole_circle(int n, SubdomainQuadrature &quadrature) const;
   bool find_pieces(const Boundary &boundary);
   void make_wedges(const Boundary &boundary, const Visibility *visibility);
@@ -90,10 +94,13 @@ SubdomainRule::SubdomainRule(const Boundary &boundary, const SubdomainPoints &po
   if (points.radial < 1 || points.angular < 1 || points.boundary < 1)
     throw std::invalid_argument(
         "a subdomain needs at least one quadrature point in the radius, the angle and on a boundary");
+  scratch_->make_unit_disc(points);
 }
 
 SubdomainRule::~SubdomainRule() = default;
 SubdomainRule::SubdomainRule(SubdomainRule &&) noexcept = default;
+
+const SubdomainQuadrature &SubdomainRule::unit_disc() const { return scratch_->unit_disc; }
 
 void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature,
                           const SubdomainWanted &wanted) {
@@ -104,7 +111,7 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
   s.disc.tolerance = boundary_->tolerance();
   if (!s.find_pieces(*boundary_)) {
     if (wanted.interior)
-      s.add_whole_disc(points_, quadrature);
+      s.add_whole_disc(quadrature);
     if (wanted.circle)
       s.add_whole_circle(points_.boundary, quadrature);
     return;
@@ -155,7 +162,7 @@ void SubdomainRule::Scratch::make_wedges(const Boundary &boundary, const Visibil
   }
 }
 
-void SubdomainRule::Scratch::add_whole_disc(const SubdomainPoints &n, SubdomainQuadrature &quadrature) const {
+void SubdomainRule::Scratch::make_unit_disc(const SubdomainPoints &n) {
   const auto &radial = linear_algebra::cached_gauss_legendre(n.radial);
   const auto &gauss = linear_algebra::cached_gauss_legendre(n.angular);
   const auto n_angular = static_cast<std::size_t>(n.angular);
@@ -164,12 +171,24 @@ void SubdomainRule::Scratch::add_whole_disc(const SubdomainPoints &n, SubdomainQ
     const double width = full_turn * (n.by_area ? 1.0 / n.angular : gauss.weights[a]);
     const Point2 direction = direction_of(full_turn * turn);
     for (std::size_t q = 0; q < radial.points.size(); ++q) {
-      const auto [r, weight] = radial_point(0, disc.radius, radial.points[q], radial.weights[q], n.by_area);
-      quadrature.point[0].push_back(disc.centre[0] + r * direction[0]);
-      quadrature.point[1].push_back(disc.centre[1] + r * direction[1]);
-      quadrature.JxW.push_back(width * weight);
+      const auto [r, weight] = radial_point(0, 1, radial.points[q], radial.weights[q], n.by_area);
+      for (int k = 0; k < 2; ++k)
+        unit_disc.point[k].push_back(r * direction[k]);
+      unit_disc.JxW.push_back(width * weight);
     }
   }
+}
+
+void SubdomainRule::Scratch::add_whole_disc(SubdomainQuadrature &quadrature) const {
+  const std::size_t n = unit_disc.JxW.size();
+  for (int k = 0; k < 2; ++k) {
+    quadrature.point[k].resize(n);
+    for (std::size_t q = 0; q < n; ++q)
+      quadrature.point[k][q] = disc.centre[k] + disc.radius * unit_disc.point[k][q];
+  }
+  quadrature.JxW.resize(n);
+  for (std::size_t q = 0; q < n; ++q)
+    quadrature.JxW[q] = disc.radius * disc.radius * unit_disc.JxW[q];
 }
 
 /// n + 2 equispaced points: exact for trigonometric polynomials up to the degree n + 1.

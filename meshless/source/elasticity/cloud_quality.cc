@@ -39,7 +39,7 @@ public:
     if (!surroundings_.simple())
       filters_[region].apply(x, candidates_);
     batch_.assign(std::span<const Point2>(points_));
-    candidate_batch_.assign(particles_, candidates_);
+    candidate_batch_.assign(particles_, candidates_, points_.front());
     return basis_.evaluate(batch_, candidate_batch_, {}, values_, workspace_);
   }
 

@@ -37,7 +37,7 @@ Result<dim> at(const basis::ShapeFunctions<dim> &shape, const cloud::Particles<d
   basis::PointBatch<dim> batch;
   batch.assign(std::span<const cloud::Point<dim>>(points));
   basis::CandidateBatch<dim> candidate_batch;
-  candidate_batch.assign(particles, result.candidates);
+  candidate_batch.assign(particles, result.candidates, points.empty() ? cloud::Point<dim>{} : points.front());
   typename basis::ShapeFunctions<dim>::Workspace workspace;
   result.regularity = shape.evaluate(batch, candidate_batch, wanted, result.values, workspace);
   basis::require_regular<dim>(result.regularity, batch, shape);

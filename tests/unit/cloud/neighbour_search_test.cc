@@ -126,6 +126,23 @@ TYPED_TEST(NeighbourSearch, particles_at_exactly_the_radius_are_outside) {
   EXPECT_EQ(found.size(), 1u);
 }
 
+TYPED_TEST(NeighbourSearch, points_sorted_by_cells_stay_in_place_and_have_the_same_neighbours) {
+  constexpr int dim = TypeParam::value;
+  const auto points = random_points<dim>(400, this->filled(0), this->filled(1), 11);
+  const double radius = .15;
+  const CellList<dim> cells(points, radius);
+  std::vector<Point<dim>> sorted;
+  for (const Index i : cells.order())
+    sorted.push_back(points[static_cast<std::size_t>(i)]);
+  const CellList<dim> again(sorted, radius);
+  for (std::size_t slot = 0; slot < sorted.size(); ++slot)
+    ASSERT_EQ(again.order()[slot], static_cast<Index>(slot));
+  this->expect_same(sorted, radius, this->probes());
+  const auto lists = again.all_within(radius);
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    ASSERT_EQ(std::vector<Index>(lists[i].begin(), lists[i].end()), this->brute_force(sorted, sorted[i], radius));
+}
+
 TYPED_TEST(NeighbourSearch, one_particle_and_particles_on_a_line) {
   this->expect_same({this->filled(.3)}, .5, this->probes());
   auto points = random_points<TypeParam::value>(80, this->filled(0), this->filled(1), 8);

@@ -77,6 +77,7 @@ struct Options {
   double support = 4;
   int quadrature_points = 10;
   double characteristic_length = 1;
+  weak_form::IntegrationRule integration = weak_form::IntegrationRule::paper;
   std::vector<strong_form::CornerRule> corner_rules{};
 };
 
@@ -90,6 +91,7 @@ inline ParticleSolution solve(Method method, const PlaneProblem &problem, const 
   weak_form::Parameters parameters;
   parameters.derivatives = method == Method::weak1 ? DerivativeRule::direct : DerivativeRule::differentiated;
   parameters.quadrature_points = options.quadrature_points;
+  parameters.integration = options.integration;
   parameters.characteristic_length = options.characteristic_length;
   return weak_form::solve(problem, shared, basis, parameters);
 }

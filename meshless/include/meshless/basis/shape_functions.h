@@ -35,11 +35,21 @@ private:
   std::array<std::vector<double>, dim> coordinates_;
 };
 
-/// The candidate particles of a batch: those whose support may reach one of its points.
+/// The candidate particles of a batch: those whose support may reach one of its points. Of one thread: a basis keeps in
+/// it what it has computed for these candidates alone.
 template <int dim>
 class CandidateBatch {
 public:
-  void assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates);
+  /// (xi_J - centre) / scale, all monomials up to the degree, a row a candidate.
+  struct MonomialTable {
+    int degree = 0; ///< 0: there is none yet
+    cloud::Point<dim> centre{};
+    std::vector<double> rows;
+  };
+
+  /// @param about a place near which shape functions will be asked for: rounding and speed may depend on it
+  void assign(const cloud::Particles<dim> &particles, std::span<const cloud::Index> candidates,
+              const cloud::Point<dim> &about);
 
   std::size_t size() const { return inverse_h_.size(); }
   const double *coordinate(int k) const { return coordinates_[k].data(); }
@@ -49,12 +59,14 @@ public:
   const double *volumes() const { return volumes_.empty() ? nullptr : volumes_.data(); }
   /// Mean smoothing length: the scale of the monomials, m.
   double scale() const { return scale_; }
+  MonomialTable &monomials() const { return monomials_; }
 
 private:
   std::array<std::vector<double>, dim> coordinates_;
   std::vector<double> inverse_h_;
   std::vector<double> volumes_;
   double scale_ = 1;
+  mutable MonomialTable monomials_;
 };
 
 /// Which shape functions are asked for; what is not asked for is not computed.
@@ -79,9 +91,10 @@ public:
   static constexpr int n_hessian = dim * (dim + 1) / 2;
   static constexpr int n_quantities = 1 + dim + n_hessian + dim;
 
+  /// @param stride of the points
   void resize(const Wanted &wanted, std::size_t n_candidates, std::size_t stride);
 
-  /// Rows of `stride` points; valid only for what was wanted.
+  /// Rows of as many points as the batch has, and padding; valid only for what was wanted.
   const double *value(std::size_t j) const { return row(0, j); }
   const double *gradient(int k, std::size_t j) const { return row(1 + k, j); }
   const double *hessian(int kl, std::size_t j) const { return row(1 + dim + kl, j); }
@@ -93,6 +106,7 @@ public:
   }
   bool has(int quantity) const { return slot_[quantity] != absent; }
   std::size_t n_candidates() const { return n_candidates_; }
+  /// From one candidate's row to the next; some more than the points.
   std::size_t stride() const { return stride_; }
 
 private:
@@ -107,7 +121,7 @@ private:
 struct Regularity {
   /// Smallest pivot of the factorisation over its diagonal entry, 1 = perfectly regular.
   double smallest_pivot_ratio = 1;
-  /// Point of the batch where that was.
+  /// Point of the batch where that was; the first one where several are singular.
   std::size_t worst_point = 0;
   /// Candidates inside the support at that point.
   std::size_t n_neighbours = 0;
@@ -140,6 +154,8 @@ public:
     std::vector<double> weights;
     std::vector<double> slopes;
     std::vector<double> curvatures;
+    std::vector<double> weight_derivatives;
+    ShapeFunctionValues<dim> one_point;
     std::vector<cloud::Index> active;
     PointNeighbours<dim> neighbours;
     std::vector<DenseLu> factors;

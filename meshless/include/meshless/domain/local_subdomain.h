@@ -93,6 +93,10 @@ public:
   /// Replaces `quadrature` by the rule of the disc around `centre`, reusing its storage.
   void build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature, const SubdomainWanted &wanted = {});
 
+  /// Interior points of the whole disc of radius 1 about the origin: those of every whole disc, moved and scaled, in
+  /// the same order.
+  const SubdomainQuadrature &unit_disc() const;
+
 private:
   struct Scratch;
   const Boundary *boundary_;

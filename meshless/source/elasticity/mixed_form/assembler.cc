@@ -68,7 +68,7 @@ void Assembler::collect(std::size_t region, const Point2 &seen_from, Fields &fie
     search.collect(centre_, radius_, field.candidates);
     if (!surroundings_.simple())
       regions_[region].filter.apply(seen_from, field.candidates);
-    field.batch.assign(particles_, field.candidates);
+    field.batch.assign(particles_, field.candidates, centre_);
     rows.assign(field.candidates.size(), Coefficients{});
   };
   fill(displacement_search_, fields.u, fields.of_u);

@@ -19,7 +19,7 @@ using PartKind = domain::SubdomainQuadrature::PartKind;
 
 /// Points of one batch: enough to fill SIMD lanes, few enough that the shape functions of a batch
 /// stay in the second-level cache.
-constexpr std::size_t batch_size = 64;
+constexpr std::size_t batch_size = 32;
 
 constexpr std::array<bool, 2> both{true, true};
 
@@ -31,15 +31,23 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
     : problem_(problem), surroundings_(surroundings), particles_(particles), basis_(basis), parameters_(parameters),
       interfaces_(problem.regions), search_(particles, basis.support()), foreign_(surroundings.n_regions()) {
   const bool consistent = parameters.integration == IntegrationRule::consistent && parameters.test_function;
-  using Consistent = std::optional<ConsistentSubdomain>;
-  for (std::size_t r = 0; r < surroundings.n_regions(); ++r)
+  for (std::size_t r = 0; r < surroundings.n_regions(); ++r) {
     regions_.push_back(
         {domain::SubdomainRule(surroundings.boundary(r), parameters.quadrature_points, &surroundings.visibility(r)),
-         consistent ? Consistent(std::in_place, surroundings.boundary(r), surroundings.visibility(r),
-                                 *parameters.test_function, basis.order())
-                    : Consistent(),
+         {},
+         {},
          RegionFilter(surroundings, particles, r),
-         parameters.penalty * surroundings.material(r).plane_modulus() / parameters.characteristic_length});
+         penalty_factor(parameters, surroundings.material(r))});
+    auto &region = regions_.back();
+    if (consistent)
+      region.consistent.emplace(surroundings.boundary(r), surroundings.visibility(r), *parameters.test_function,
+                                basis.order());
+    else if (parameters.test_function) {
+      const auto &disc = region.rule.unit_disc();
+      weak_form::evaluate_test_function(*parameters.test_function, {0, 0}, 1, disc.point[0], disc.point[1],
+                                        region.whole_disc.test, &region.whole_disc.gradient);
+    }
+  }
 }
 
 void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matrix,
@@ -103,7 +111,7 @@ void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &bloc
   search_.collect(centre_, radius_, block.candidates);
   if (!surroundings_.simple())
     regions_[region].filter.apply(seen_from, block.candidates);
-  block.batch.assign(particles_, block.candidates);
+  block.batch.assign(particles_, block.candidates, centre_);
   for (auto &component : block.k)
     component.assign(block.candidates.size(), 0.0);
 }
@@ -167,8 +175,12 @@ void Assembler::integrate_domain() {
   Stopwatch watch;
   const std::span<const double> x = quadrature_.point[0];
   const std::span<const double> y = quadrature_.point[1];
-  if (!regions_[region_].consistent) // else it has been
-    evaluate_test_function(x, y, true);
+  if (!regions_[region_].consistent) { // else it has been
+    if (quadrature_.whole)
+      regions_[region_].whole_disc.stretch(radius_, test_, test_gradient_);
+    else
+      evaluate_test_function(x, y, true);
+  }
   const std::size_t n = own_.candidates.size();
   sums_.assign(4 * n, Pack(0.0));
   for (std::size_t begin = 0; begin < x.size(); begin += batch_size) {

@@ -41,7 +41,8 @@ private:
   /// What one region keeps for all its particles.
   struct RegionRule {
     domain::SubdomainRule rule;
-    std::optional<ConsistentSubdomain> consistent; ///< in its place
+    UnitDiscTest whole_disc;                       ///< of that rule; empty with the Heaviside function
+    std::optional<ConsistentSubdomain> consistent; ///< in place of both
     RegionFilter filter;
     double alpha;
   };

@@ -40,15 +40,36 @@ void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre,
       kernel);
 }
 
+void UnitDiscTest::stretch(double radius, std::vector<double> &to_test,
+                           std::array<std::vector<double>, 2> &to_gradient) const {
+  to_test.assign(test.begin(), test.end());
+  const double inverse = 1 / radius;
+  for (std::size_t k = 0; k < 2; ++k) {
+    to_gradient[k].resize(test.size());
+    for (std::size_t q = 0; q < test.size(); ++q)
+      to_gradient[k][q] = inverse * gradient[k][q];
+  }
+}
+
 ConsistentSubdomain::ConsistentSubdomain(const domain::Boundary &boundary, const domain::Visibility &visibility,
                                          const kernels::Kernel &test_function, int order)
     : boundary_(&boundary), visibility_(&visibility), test_function_(test_function), order_(order),
-      rule_(boundary, consistent_points(order), &visibility), correction_(order - 1) {}
+      rule_(boundary, consistent_points(order), &visibility), correction_(order - 1) {
+  const auto &disc = rule_.unit_disc();
+  evaluate_test_function(test_function_, {0, 0}, 1, disc.point[0], disc.point[1], whole_.test, &whole_.gradient);
+  if (!correction_.correct({0, 0}, 1, disc, whole_.test, {}, whole_.gradient))
+    throw std::logic_error("the consistent rule has too few points for a whole disc");
+}
 
 void ConsistentSubdomain::build(const Point2 &centre, double radius, ConsistentPoints &points) {
   const auto evaluate = [&](domain::SubdomainRule &rule) {
     auto &quadrature = points.quadrature;
     rule.build(centre, radius, quadrature);
+    if (quadrature.whole) {
+      points.edge_test.clear();
+      whole_.stretch(radius, points.test, points.gradient);
+      return true;
+    }
     evaluate_test_function(test_function_, centre, radius, quadrature.boundary_point[0], quadrature.boundary_point[1],
                            points.edge_test, nullptr);
     evaluate_test_function(test_function_, centre, radius, quadrature.point[0], quadrature.point[1], points.test,

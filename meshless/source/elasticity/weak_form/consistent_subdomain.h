@@ -17,6 +17,15 @@ void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre,
                             std::span<const double> x, std::span<const double> y, std::vector<double> &test,
                             std::array<std::vector<double>, 2> *gradient);
 
+/// W_I and its gradient at the points of the whole disc of radius 1, computed once: on every other whole disc W_I is
+/// the same and its gradient that over the radius.
+struct UnitDiscTest {
+  std::vector<double> test;
+  std::array<std::vector<double>, 2> gradient;
+
+  void stretch(double radius, std::vector<double> &to_test, std::array<std::vector<double>, 2> &to_gradient) const;
+};
+
 /// Quadrature of one subdomain, W_I at its points and those of its edge, and the corrected gradient.
 struct ConsistentPoints {
   domain::SubdomainQuadrature quadrature;
@@ -44,6 +53,7 @@ private:
   int order_;
   domain::SubdomainRule rule_;
   ConsistentGradient correction_;
+  UnitDiscTest whole_; ///< corrected
 };
 
 } // namespace meshless::elasticity::weak_form

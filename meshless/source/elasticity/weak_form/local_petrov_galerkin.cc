@@ -35,6 +35,10 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::P
 
 } // namespace
 
+double penalty_factor(const Parameters &parameters, const Material &material) {
+  return parameters.penalty * material.plane_modulus() / parameters.characteristic_length;
+}
+
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters) {
   problem.check();

@@ -57,6 +57,9 @@ struct Parameters {
   linear_algebra::SystemSolver solver = linear_algebra::SystemSolver::automatic;
 };
 
+/// alpha of a material, Pa/m: on prescribed displacement the body is held by the traction sigma n - alpha (u - ubar).
+double penalty_factor(const Parameters &parameters, const Material &material);
+
 /// Solves the problem by the weak form (3.19) on the local subdomains of all particles:
 ///   int sigma_ij W,j + alpha int_u u_i W - int_u sigma_ij n_j W - int_c sigma_ij n_j W
 ///     = int_t t_i W + alpha int_u ubar_i W + int b_i W,
