@@ -56,12 +56,3 @@ function(petrov_describe_build target)
     PETROV_BUILD_TYPE="${CMAKE_BUILD_TYPE}"
     PETROV_CXX_FLAGS="${flags}")
 endfunction()
-
-# In a sanitized build: headers outside this project compiled once for a target, without which most of its time goes
-# into reading them. Other builds go without, so that every file shows what it includes.
-function(petrov_precompile_sanitized target)
-  if(PETROV_SANITIZE)
-    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <memory>
-      <numbers> <optional> <random> <set> <span> <sstream> <string> <vector> <fmt/format.h> <fmt/ranges.h> ${ARGN})
-  endif()
-endfunction()
