@@ -231,7 +231,7 @@ std::vector<HardCase> cases_of_pressure() {
   add("ring, errors for every nu", "Lame's cylinder, 13 particles along the radius", [](double nu, std::uint64_t seed) {
     return std::pair{cylinder(nu, 13, .25, seed), ring_field({1, nu, true})};
   });
-  cases.push_back({"incompressibility", "cook nu=0.499999, oscillation of the pressure",
+  cases.push_back({"incompressibility", "oscillation of the pressure on Cook's membrane",
                    "Cook's membrane, 625 particles jittered by 25 %: difference of the pressure at a particle from the "
                    "mean of those around it, over its size, less the same of Q2Q1 on 48 x 48 cells at the same places",
                    "that of Q2Q1, whose pressure is smooth but for the corner", .1,
