@@ -199,6 +199,19 @@ std::vector<HardCase> geometry_cases() {
                      "exponent .544483737 (Szabo & Babuska)", .05,
                      "5 %: the error of u falls like h^1.09, from about .1^1.09 = .08 with a small constant",
                      particle_solvers(), spacing == .1, [=](const std::string &m) { return l_shape(m, spacing); }});
+  cases.push_back({"slots and corners", "L-shape, rate",
+                   "the same for spacings of .1 and .05: rate at which the error of u falls; error is what it is below "
+                   "the exponent",
+                   "the error falls at least like h^.544 (the energy norm does like h^.544483737, u faster)", .05,
+                   ".05 of the rate: two levels and clouds that are not similar", particle_solvers(), false,
+                   [](const std::string &m) {
+                     auto coarse = l_shape(m, .1), fine = l_shape(m, .05);
+                     const double rate = std::log2(coarse.error / fine.error);
+                     fine.value = rate;
+                     const double shortfall = problems::reentrant_corner_exponent() - rate;
+                     fine.error = shortfall <= 0 ? 0 : shortfall; // a NaN is kept
+                     return fine;
+                   }});
   for (const double width : {2., .5, .01})
     cases.push_back(
         {"slots and corners", fmt::format("slot of {:g} spacings", width),

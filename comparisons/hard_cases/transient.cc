@@ -149,6 +149,58 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
            return run(catalogue, tube(m, gas.problem, gas.material, gas.time),
                       [gas](const reports::Cell &cell) { return value_of(cell.errors, "density_l1") / gas.scale; });
          }});
+  const auto plate = [&](const std::string &m, const std::string &keys, const std::string &rest) {
+    const bool element = m.starts_with("fem ");
+    return fmt::format(
+        "schema = 1\ntitle = \"hard case\"\nbenchmark = \"plate_vibration\"\n[problem]\n{}\n[[method]]\nname = "
+        "\"{}\"\n{}{}\n",
+        keys, element ? "fem" : m, element ? "element = \"" + m.substr(4) + "\"\n" : "", rest);
+  };
+  for (const double jitter : {0., .25})
+    cases.push_back(
+        {"zero modes",
+         fmt::format("free plate, jitter {:g} %", 100 * jitter),
+         "eigenvalues of the assembled operator of a plate that nothing holds, 13 x 7 points: the sum of "
+         "the third lowest frequency over the first elastic one and the relative error of the fourth",
+         "three rigid motions and no further zero: a fourth, such as an hourglass, would have an error of 1",
+         .1,
+         "10 %: of the first elastic frequency on 13 points",
+         {"strong", "weak1", "weak2", "fem Q1", "fem Q2"},
+         true,
+         [&catalogue, jitter, plate](const std::string &m) {
+           return run(catalogue, plate(m, fmt::format("jitter = {}", jitter), "[study]\nlevels = [\"13x7\"]"),
+                      [](const reports::Cell &cell) {
+                        return value_of(cell.quantities, "rigid_over_first") +
+                               value_of(cell.errors, "frequency_1_relative");
+                      });
+         }});
+  cases.push_back(
+      {"long runs",
+       "plate, complex eigenvalues",
+       "a step load on a plate of 21 x 5 points for ten periods, mean acceleration; error of the energy",
+       "the energy is the work; an operator whose motions grow ends the run by name",
+       .05,
+       "5 %: mean acceleration conserves the energy of a symmetric operator to rounding",
+       {"weak1", "weak2", "fem Q2"},
+       true,
+       [&catalogue, plate](const std::string &m) {
+         return run(catalogue,
+                    plate(m, "supports = \"left\"\nlength = \"1 m\"\nwidth = \"0.2 m\"",
+                          "[time]\nend = \"20 ms\"\ncfl = 4.0\n[study]\nanalysis = \"transient\"\nlevels = [\"21x5\"]"),
+                    [](const reports::Cell &cell) { return std::abs(value_of(cell.errors, "energy_relative")); });
+       }});
+  cases.push_back({"long runs",
+                   "bar, complex eigenvalues",
+                   "the pulse in a bar with the cubic spline at h = 2 D, whose operator has complex eigenvalues",
+                   "an end by name before the first step",
+                   .1,
+                   "nothing may come out",
+                   {"ssph"},
+                   true,
+                   [&catalogue, stress](const std::string &m) {
+                     return run(catalogue, bar(m, "kernel = \"cubic_spline\"\nsmoothing_length = 2.0", "", "", 200),
+                                stress);
+                   }});
   cases.push_back({"long runs",
                    "bar, 1e6 steps",
                    "the pulse reflected in 50 points, a million steps; error of the energy",

@@ -78,6 +78,14 @@ void ParticleField::evaluate(std::string_view field, std::span<const std::array<
     throw std::invalid_argument(fmt::format("no field '{}'; there are {}", field, fmt::join(fields(), ", ")));
 }
 
+std::vector<double> ParticleField::penalty(std::span<const std::array<double, 2>> points) const {
+  std::vector<double> values;
+  if (!prepared_.penalties.empty())
+    for (const auto &point : points)
+      values.push_back(prepared_.penalties[solution_.surroundings().region_of(point)]);
+  return values;
+}
+
 std::vector<std::array<double, 2>> ParticleField::own_points() const {
   const auto positions = solution_.particles().positions();
   return {positions.begin(), positions.end()};

@@ -24,6 +24,7 @@ public:
   /// Smoothing length, and neighbours and regularity of the moment matrix (smallest pivot over its diagonal entry, 1
   /// at best) at every particle.
   std::map<std::string, std::vector<double>> own_figures() const override;
+  std::vector<double> penalty(std::span<const std::array<double, 2>> points) const override;
   std::optional<CloudReport> cloud() const override { return cloud_report(prepared_); }
 
 private:

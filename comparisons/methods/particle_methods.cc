@@ -102,6 +102,10 @@ elasticity::ParticleSolution solve_form(const SolveRequest &request, Form form, 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   try {
     auto p = prepare(request, form);
+    if (form == Form::weak1 || form == Form::weak2 || form == Form::hybrid)
+      for (const auto &region : p.problem.regions)
+        p.penalties.push_back(
+            elasticity::weak_form::penalty_factor(weak_parameters(request, form, p), region.material));
     auto solution = solve_form(request, form, p);
     auto warnings = forewarnings(request, form, p.regular);
     return std::make_unique<ParticleField>(std::move(solution), std::move(p), std::move(warnings));

@@ -20,6 +20,9 @@ struct Prepared {
   double test_radius = 0;
   std::size_t n_enlarged = 0;
   double largest_factor = 1;
+  /// alpha of every region, Pa/m, with which a weak form holds the body (weak_form::penalty_factor); empty:
+  /// displacement is prescribed without a penalty.
+  std::vector<double> penalties;
   double points_seconds = 0;
   double enlarge_seconds = 0;
 };

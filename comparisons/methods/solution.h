@@ -58,6 +58,13 @@ public:
   /// How well the particles suit the basis; nothing for a method that has none. Computed at the call.
   virtual std::optional<CloudReport> cloud() const { return {}; }
 
+  /// alpha of the penalty at boundary points, Pa/m: where displacement is prescribed, the discrete equations hold the
+  /// body by the traction sigma n - alpha (u - ubar). Nothing: they have no penalty.
+  virtual std::vector<double> penalty(std::span<const std::array<double, 2>> points) const {
+    (void)points;
+    return {};
+  }
+
   /// Nothing: the forces are integrals of the stress over the boundary.
   virtual std::optional<ForceBalance> own_forces() const { return {}; }
   /// J per m of thickness by the method's own quadrature; nothing: an integral of the stress by the quadrature of

@@ -3,6 +3,7 @@
 #include "comparisons/metrics/support_force.h"
 #include "comparisons/problems/boundary_quadrature.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -64,6 +65,37 @@ void integrate(const methods::Solution &solution, const problems::PlaneStatement
   for (std::size_t q = 0; q < values.size(); ++q)
     for (std::size_t k = 0; k < 2; ++k)
       result.body[k] += quadrature.weights[q] * values[q][k];
+}
+
+/// Sum of the forces of all supports by the discrete equations of a method with a penalty: int (sigma n - alpha (u -
+/// ubar)). The penalty's part alternates from particle to particle, so there are some points between two of them.
+std::optional<Force> discrete_support_force(const methods::Solution &solution,
+                                            const problems::PlaneStatement &statement) {
+  const double parts = 8 * std::sqrt(static_cast<double>(solution.record().n_points));
+  std::array<long double, 2> force{};
+  for (const auto &[id, points] : problems::boundary_quadrature(statement, std::max(96., parts))) {
+    const auto condition = statement.conditions.find(id);
+    if (condition == statement.conditions.end())
+      continue;
+    const auto &prescribed = condition->second.displacement_prescribed;
+    if (!prescribed[0] && !prescribed[1])
+      continue;
+    const auto alpha = solution.penalty(points.points);
+    if (alpha.empty())
+      return {};
+    const Force stress = carried(solution, points);
+    std::vector<double> u(2 * points.points.size());
+    std::vector<Vector2> given(points.points.size());
+    solution.evaluate("displacement", points.points, u);
+    condition->second.displacement(points.points, given);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (prescribed[k]) {
+        force[k] += stress[k];
+        for (std::size_t q = 0; q < given.size(); ++q)
+          force[k] -= points.weights[q] * alpha[q] * (u[2 * q + k] - given[q][k]);
+      }
+  }
+  return Force{static_cast<double>(force[0]), static_cast<double>(force[1])};
 }
 
 /// The support's force is that of the stress inside the body where one boundary alone prescribes a component, and what
@@ -162,6 +194,16 @@ Equilibrium equilibrium(const methods::Solution &solution, const problems::Plane
   const double loads = applied_magnitude(statement, boundary, quadrature);
   const double scale = loads > 1e-12 * all ? loads : carried_magnitude(solution, boundary);
   result.imbalance = scale > 0 ? magnitude(sum) / scale : 0;
+  if (const auto own = solution.own_forces() ? std::nullopt : discrete_support_force(solution, statement)) {
+    Force left = *own;
+    for (std::size_t k = 0; k < 2; ++k) {
+      left[k] += result.body[k];
+      for (const auto &[id, force] : result.boundary)
+        if (!statement.conditions.at(id).displacement_prescribed[k])
+          left[k] += force[k];
+    }
+    result.discrete_imbalance = scale > 0 ? magnitude(left) / scale : 0;
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 
 namespace comparisons::metrics {
 
@@ -18,6 +19,9 @@ struct Equilibrium {
   /// |sum of all forces| over the integral of the magnitude of what is applied (of sigma n over the boundary if nothing
   /// is).
   double imbalance = 0;
+  /// The same with the supports' forces of the method's own equations, stress and penalty; of weak forms. It is what
+  /// their test functions leave, which do not sum to one.
+  std::optional<double> discrete_imbalance;
 };
 
 /// Forces of a solution: by its own discrete equations if it has them (methods::ForceBalance), else loads are integrals

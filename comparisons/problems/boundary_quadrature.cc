@@ -59,14 +59,13 @@ private:
 
 } // namespace
 
-std::map<int, BoundaryQuadrature> boundary_quadrature(const PlaneStatement &statement) {
+std::map<int, BoundaryQuadrature> boundary_quadrature(const PlaneStatement &statement, double least_parts) {
   std::map<int, double> lengths;
   for (const auto &region : statement.regions)
     for (const auto &piece : region.boundary)
       if (piece.id != interface_id)
         lengths[piece.id] += Curve(piece).length();
   const auto gauss = meshless::linear_algebra::gauss_legendre(5);
-  constexpr double least_parts = 96;
   std::map<int, BoundaryQuadrature> result;
   for (const auto &region : statement.regions)
     for (const auto &piece : region.boundary) {

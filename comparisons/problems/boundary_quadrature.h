@@ -15,7 +15,7 @@ struct BoundaryQuadrature {
 };
 
 /// Gauss points on the outer boundary of a statement, by id: lines and arcs exactly as they are, every id in at least
-/// 96 parts of five points in proportion to length. Interfaces are left out.
-std::map<int, BoundaryQuadrature> boundary_quadrature(const PlaneStatement &statement);
+/// this many parts of five points in proportion to length. Interfaces are left out.
+std::map<int, BoundaryQuadrature> boundary_quadrature(const PlaneStatement &statement, double least_parts = 96);
 
 } // namespace comparisons::problems

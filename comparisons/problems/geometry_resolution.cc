@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -235,6 +236,12 @@ private:
     if (tables_.thermal_expansion)
       statement.thermal_strain = scalar_values(tables_.thermal_expansion->keys.text("temperature"),
                                                tables_.thermal_expansion->keys.real("expansion"));
+    if (!is_loaded())
+      error(tables_.boundaries.front().location, "boundary",
+            "nothing loads the body: every displacement, traction and pressure is 0, so that errors relative to the "
+            "solution mean nothing",
+            "give a boundary a traction, a pressure or a displacement, or add [effects.body_force] or "
+            "[effects.thermal_expansion]");
     std::set<std::string> without;
     for (const auto &edge : shape.mesh.boundary)
       if (!statement.conditions.contains(edge.id)) {
@@ -249,6 +256,29 @@ private:
           tables_.boundaries.front().location, "boundary",
           fmt::format("boundaries without a condition are free of traction: {}", fmt::join(without, ", ")),
           "add [[boundary]] if that is not meant");
+  }
+
+  /// False if the answer is zero by what is written: numbers that are 0; an expression counts as a load.
+  bool is_loaded() const {
+    const auto is_zero = [](const std::string &text) {
+      char *end = nullptr;
+      return std::strtod(text.c_str(), &end) == 0 && end != text.c_str() && *end == '\0';
+    };
+    if (tables_.body_force || tables_.thermal_expansion)
+      return true;
+    for (const auto &table : tables_.boundaries) {
+      for (const char *key : {"u1", "u2", "pressure"})
+        if (table.keys.has(key) && !is_zero(table.keys.text(key)))
+          return true;
+      if (!table.keys.has("traction"))
+        continue;
+      if (table.keys.text("traction") == "reference")
+        return true;
+      for (const auto &text : scene::split_expressions(table.keys.text("traction")))
+        if (!is_zero(text))
+          return true;
+    }
+    return false;
   }
 
   const scene::PlacedTable *condition_of(const std::string &group) const {

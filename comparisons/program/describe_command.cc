@@ -220,9 +220,13 @@ int list_names(const std::string &what, const study::Catalogue &catalogue) {
     print(vocabulary.kernels);
   else if (what == "effects")
     print(vocabulary.effects);
-  else if (what == "benchmarks")
-    print(vocabulary.benchmarks);
-  else {
+  else if (what == "benchmarks") {
+    auto benchmarks = vocabulary.benchmarks;
+    benchmarks.emplace_back().name = "hard_cases";
+    benchmarks.back().meaning =
+        "the matrix of `petrov verify`, hard cases and methods; for compare alone, it has no scenes";
+    print(benchmarks);
+  } else {
     fmt::print(stderr, "error: cannot list '{}'; there are methods, bases, kernels, effects, benchmarks\n", what);
     return usage_error;
   }

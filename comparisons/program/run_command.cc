@@ -1,5 +1,7 @@
 #include "comparisons/program/run_command.h"
 
+#include "comparisons/hard_cases/case_table.h"
+#include "comparisons/hard_cases/report_cells.h"
 #include "comparisons/ledger/ledger.h"
 #include "comparisons/metrics/machine.h"
 #include "comparisons/program/data_files.h"
@@ -28,6 +30,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The benchmark that is a matrix, not scenes.
+constexpr const char *hard_cases_name = "hard_cases";
+
 /// What a run is about to do; complete before anything is computed.
 struct Plan {
   std::vector<scene::Scene> scenes;
@@ -35,6 +40,8 @@ struct Plan {
   std::vector<std::string> formats;
   bool brief = false; ///< on the terminal; the files hold everything
   ledger::MissingCells missing = ledger::MissingCells::count_as_missed;
+  /// The matrix of hard cases beside the scenes: the quick cases or all.
+  enum class HardCases { none, quick, all } hard_cases = HardCases::none;
 };
 
 void print_diagnostics(const scene::Diagnostics &diagnostics) {
@@ -133,6 +140,19 @@ void settle_published(const Plan &plan, reports::Results &results) {
   }
 }
 
+void add_hard_cases(const Plan &plan, bool quiet, const study::Catalogue &catalogue, reports::Results &results) {
+  const auto cases =
+      hard_cases::select(hard_cases::case_table(catalogue),
+                         {.cases = {}, .methods = {}, .quick = plan.hard_cases == Plan::HardCases::quick});
+  Progress progress(quiet);
+  hard_cases::MatrixOptions options;
+  options.stop_requested = [] { return Interrupt::requested(); };
+  options.progress = [&](const std::string &text) { progress.show(text); };
+  auto cells = hard_cases::report_cells(cases, hard_cases::run_matrix(cases, options));
+  results.cells.insert(results.cells.end(), std::make_move_iterator(cells.begin()),
+                       std::make_move_iterator(cells.end()));
+}
+
 int execute(const Plan &plan, const CommonOptions &options, const study::Catalogue &catalogue, bool with_ledger) {
   try {
     reports::prepare_output_directory(plan.directory);
@@ -174,6 +194,8 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
                            std::make_move_iterator(cells.end()));
     }
   }
+  if (plan.hard_cases != Plan::HardCases::none && !Interrupt::requested())
+    add_hard_cases(plan, options.quiet, catalogue, results);
   results.interrupted = Interrupt::requested();
   results.machine.competing_cores = others.cores();
   results.machine.load_at_end = metrics::current_load();
@@ -253,6 +275,7 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
   for (const auto &benchmark : catalogue.benchmarks)
     if (!benchmark.description.own_geometry)
       known.push_back(benchmark.description.name);
+  known.emplace_back(hard_cases_name);
   const auto all = known;
   known.emplace_back("examples");
   std::vector<fs::path> files;
@@ -265,6 +288,8 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
       fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "), hint);
       return usage_error;
     }
+    if (name == hard_cases_name)
+      continue; // has no scenes
     const auto scenes = name == "examples" ? example_scenes() : shipped_scenes(name);
     files.insert(files.end(), scenes.begin(), scenes.end());
   }
@@ -272,11 +297,18 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
   if (!scenes)
     return invalid_scene;
   Plan plan;
+  const auto &chosen = benchmarks.empty() ? all : benchmarks;
+  if (std::find(chosen.begin(), chosen.end(), hard_cases_name) != chosen.end())
+    plan.hard_cases = full ? Plan::HardCases::all : Plan::HardCases::quick;
   if (!options.sets.empty())
     plan.missing = ledger::MissingCells::leave_out;
   plan.directory = options.output.value_or("out");
   plan.brief = true;
-  plan.formats = scenes->front().formats;
+  if (scenes->empty())
+    plan.formats = options.formats.empty() ? std::vector<std::string>{"text", "md", "csv", "json", "tex", "html"}
+                                           : options.formats;
+  else
+    plan.formats = scenes->front().formats;
   for (auto &scene : *scenes)
     if (full || scene.study.text("effort") == "quick")
       plan.scenes.push_back(std::move(scene));

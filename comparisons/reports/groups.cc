@@ -1,5 +1,7 @@
 #include "comparisons/reports/groups.h"
 
+#include "comparisons/reports/hard_cases_section.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +52,8 @@ std::string Group::common_level() const {
 std::vector<Group> group_cells(const Results &results) {
   std::vector<Group> groups;
   for (const Cell &cell : results.cells)
-    group_of(groups, cell).cells.push_back(&cell);
+    if (!is_hard_case(cell))
+      group_of(groups, cell).cells.push_back(&cell);
   std::vector<std::string> benchmarks;
   for (Group &group : groups) {
     put_labels_together(group);

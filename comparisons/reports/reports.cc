@@ -7,6 +7,7 @@
 #include "comparisons/reports/figures.h"
 #include "comparisons/reports/files.h"
 #include "comparisons/reports/growth.h"
+#include "comparisons/reports/hard_cases_section.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/latex.h"
 #include "comparisons/reports/ledger_section.h"
@@ -32,6 +33,8 @@ void append_header(Document &document, const Results &results, const std::vector
   for (const Group &group : groups)
     if (std::find(benchmarks.begin(), benchmarks.end(), group.benchmark) == benchmarks.end())
       benchmarks.push_back(group.benchmark);
+  if (has_hard_cases(results))
+    benchmarks.emplace_back("hard_cases");
   const Program &program = results.program;
   const Machine &machine = results.machine;
   document.push_back(Heading{1, fmt::format("{}: {}", program.name, fmt::join(benchmarks, ", "))});
@@ -86,11 +89,13 @@ Document report_document(const Results &results) {
   Document document;
   append_header(document, results, groups);
   append_reading_aid(document);
-  append_comparison(document, groups);
+  if (!groups.empty() || !has_hard_cases(results))
+    append_comparison(document, groups);
   append_equal_error(document, results);
   append_pareto(document, groups);
   append_rates(document, groups);
   append_ledger(document, results);
+  append_hard_cases(document, results);
   append_facts(document, groups);
   append_phases(document, groups);
   append_growth(document, groups);
@@ -146,12 +151,14 @@ std::string brief_report(const Results &results) {
       main.push_back(group);
   Document document;
   append_header(document, results, groups);
-  append_comparison(document, main);
+  if (!groups.empty() || !has_hard_cases(results))
+    append_comparison(document, main);
   if (groups.size() > main.size())
     document.push_back(Paragraph{fmt::format(
         "{} further comparisons, the published numbers one by one, the seconds for equal errors, rates and phases are "
         "in the files.",
         groups.size() - main.size())});
+  append_hard_cases_in_brief(document, results);
   append_unexpected(document, results);
   append_summary(document, results);
   return render_text(document);

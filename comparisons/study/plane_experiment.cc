@@ -110,6 +110,8 @@ public:
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
     const auto equilibrium = metrics::equilibrium(*solution, problem_->statement(), quadrature);
     cell.quantities["force_imbalance"] = equilibrium.imbalance;
+    if (equilibrium.discrete_imbalance)
+      cell.quantities["discrete_force_imbalance"] = *equilibrium.discrete_imbalance;
     const auto indicators = metrics::error_indicators(*solution, problem_->statement(), equilibrium, quadrature.points);
     for (const auto &[name, value] : indicators)
       if (name != "force_imbalance")

@@ -79,7 +79,8 @@ TEST(CaseTable, every_case_says_what_it_is_and_why_its_threshold) {
 class Family : public testing::TestWithParam<const char *> {};
 INSTANTIATE_TEST_SUITE_P(Quick, Family,
                          testing::Values("patch", "slenderness", "degenerate", "shift", "contrast", "L-shape",
-                                         "slot of", "penalty", "bar wave", "time step", "Swegle", "gas"),
+                                         "slot of", "penalty", "bar wave", "time step", "Swegle", "gas", "zero modes",
+                                         "complex eigenvalues"),
                          [](const auto &instance) {
                            std::string name = instance.param;
                            std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
@@ -115,6 +116,19 @@ TEST(Locking, shows_in_displacement_methods_with_a_warning_and_not_in_mixed_ones
     ASSERT_FALSE(locked.warnings.empty());
     EXPECT_NE(locked.warnings[0].find("lock"), std::string::npos);
   }
+}
+
+TEST(Mixed, is_consistent_and_the_same_for_every_nu) {
+  for (const auto *hard_case : {"quadratic, nu=0.499999", "ring, errors for every nu", "oscillation of the pressure"})
+    EXPECT_EQ(one(hard_case, "mixed").verdict, CellVerdict::holds) << hard_case;
+}
+
+TEST(ComplexEigenvalues, end_a_run_by_name) {
+  EXPECT_EQ(one("bar, complex eigenvalues", "ssph").verdict, CellVerdict::refused);
+  const auto grows = one("plate, complex eigenvalues", "weak1");
+  EXPECT_EQ(grows.verdict, CellVerdict::refused);
+  EXPECT_NE(grows.reason.find("energy grows"), std::string::npos) << grows.reason;
+  EXPECT_EQ(one("plate, complex eigenvalues", "fem Q2").verdict, CellVerdict::holds);
 }
 
 TEST(Slenderness, q1_with_full_integration_visibly_locks_and_q2_does_not) {

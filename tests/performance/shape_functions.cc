@@ -7,19 +7,22 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace {
 
 using namespace meshless;
 
 template <int dim>
-cloud::Particles<dim> unit_spacing() {
+cloud::Particles<dim> unit_spacing(double h = 1, int side = dim == 3 ? 15 : 31) {
   std::array<int, dim> n;
-  n.fill(dim == 3 ? 15 : 31);
+  n.fill(side);
   cloud::Point<dim> high;
   high.fill(n[0] - 1);
   auto points = sample_clouds::jittered_grid<dim>(n, cloud::Point<dim>{}, high, .25, 1);
-  std::vector<double> h(points.size(), 1);
-  return {std::move(points), std::move(h)};
+  std::vector<double> lengths(points.size(), h);
+  return {std::move(points), std::move(lengths)};
 }
 
 /// 64 points within one spacing of the middle of the cloud.
@@ -66,6 +69,60 @@ void grouped(benchmark::State &state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
+/// Value, first and second derivatives at as many points as there are particles, search included; about 30 neighbours
+/// in the plane, 60 in space. The values are stored in the arrays of the group.
+template <int dim>
+void all_derivatives(benchmark::State &state, const kernels::Kernel &kernel) {
+  const double radius = dim == 2 ? std::sqrt(30 / std::numbers::pi) : std::cbrt(45 / std::numbers::pi);
+  const int side = dim == 2 ? 200 : 34;
+  const auto particles = unit_spacing<dim>(radius / kernels::support_of(kernel), side);
+  const auto basis = basis::make_ssph<dim>(2, kernel);
+  cloud::Point<dim> low;
+  cloud::Point<dim> high;
+  low.fill(3);
+  high.fill(side - 4);
+  const auto points = sample_clouds::random_points<dim>(particles.size(), low, high, 3);
+  const cloud::CandidateSearch<dim> search(particles, basis->support());
+  const basis::GroupedEvaluation<dim> evaluation(*basis, search);
+  for (auto _ : state)
+    evaluation.visit(points, {.value = true, .gradient = true, .hessian = true},
+                     [](const auto &group) { benchmark::DoNotOptimize(group.values.hessian(0, 0)); });
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+
+/// The same without search: 16 points at a time around one place, their candidates known.
+template <int dim>
+void all_derivatives_at(benchmark::State &state, const kernels::Kernel &kernel) {
+  const double radius = dim == 2 ? std::sqrt(30 / std::numbers::pi) : std::cbrt(45 / std::numbers::pi);
+  const auto particles = unit_spacing<dim>(radius / kernels::support_of(kernel));
+  const auto basis = basis::make_ssph<dim>(2, kernel);
+  const cloud::CandidateSearch<dim> search(particles, basis->support());
+  cloud::Point<dim> centre;
+  centre.fill(dim == 3 ? 7 : 15);
+  cloud::Point<dim> low = centre;
+  cloud::Point<dim> high = centre;
+  for (int k = 0; k < dim; ++k) {
+    low[k] -= .5;
+    high[k] += .5;
+  }
+  const auto points = sample_clouds::random_points<dim>(16, low, high, 2);
+  std::vector<cloud::Index> candidates;
+  search.collect(centre, std::sqrt(dim) * .5, candidates);
+  basis::PointBatch<dim> batch;
+  basis::CandidateBatch<dim> candidate_batch;
+  basis::ShapeFunctionValues<dim> values;
+  typename basis::ShapeFunctions<dim>::Workspace workspace;
+  for (auto _ : state) {
+    batch.assign(std::span<const cloud::Point<dim>>(points));
+    candidate_batch.assign(particles, candidates, centre);
+    benchmark::DoNotOptimize(
+        basis->evaluate(batch, candidate_batch, {.value = true, .gradient = true, .hessian = true}, values, workspace));
+  }
+  state.SetItemsProcessed(state.iterations() * 16);
+  state.counters["candidates"] = static_cast<double>(candidates.size());
+  state.counters["neighbours"] = static_cast<double>(workspace.active.size());
+}
+
 constexpr basis::Wanted value{.value = true};
 constexpr basis::Wanted weak1{.gradient = true};
 constexpr basis::Wanted weak2{.differentiated_gradient = true};
@@ -81,6 +138,18 @@ BENCHMARK_CAPTURE(batch_2d, weak2, weak2)->DenseRange(1, 4)->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(batch_2d, strong, strong)->DenseRange(2, 4)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(batch_1d, weak1, weak1)->Arg(2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(batch_3d, weak1, weak1)->DenseRange(1, 3)->Unit(benchmark::kMicrosecond);
+constexpr auto *all_2d = &all_derivatives<2>;
+constexpr auto *all_3d = &all_derivatives<3>;
+constexpr auto *all_at_2d = &all_derivatives_at<2>;
+constexpr auto *all_at_3d = &all_derivatives_at<3>;
+BENCHMARK_CAPTURE(all_at_2d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_at_2d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(all_at_3d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_at_3d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(all_2d, polynomial, kernels::Quartic())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all_2d, gauss, kernels::Gauss(3))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all_3d, polynomial, kernels::Quartic())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all_3d, gauss, kernels::Gauss(3))->Unit(benchmark::kMillisecond);
 BENCHMARK(grouped)->Arg(1000)->Arg(20000)->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -149,6 +149,15 @@ TEST(BadGeometry, rigid_motions_that_remain) {
   EXPECT_EQ(good.exit_code, 0) << good.err;
 }
 
+TEST(BadGeometry, a_body_that_nothing_loads) {
+  // Ended as "displacement_l2_relative is not finite" in every cell.
+  for (const auto *traction : {"", "traction = [0, 0]\n", "traction = [\"0 Pa\", \"0\"]\n"}) {
+    const auto ended = run_with(square, replaced(scene, "traction = [\"1 MPa\", \"1e6*y*(1-y)\"]\n", traction));
+    EXPECT_EQ(ended.exit_code, 3) << traction;
+    EXPECT_NE(ended.err.find("nothing loads the body"), std::string::npos) << ended.err;
+  }
+}
+
 TEST(BadGeometry, conditions_that_disagree) {
   const std::string bottom = replaced(scene, "pressure = 0", "u1 = \"0.001 + 0.002*x\"");
   expect_refused(square, bottom, {"error: boundary[3].u1: 'left' and 'bottom' meet at (0, 0)", "u1 = 0 and 0.001 m"});

@@ -43,7 +43,7 @@ TEST(Commands, list) {
       {"bases", {"ssph"}},
       {"kernels", {"gauss", "revised_super_gauss"}},
       {"effects", {"elasticity", "body_force", "inertia"}},
-      {"benchmarks", {"cantilever"}}};
+      {"benchmarks", {"cantilever", "hard_cases"}}};
   for (const auto &[what, names] : lists) {
     const auto ended = run_here({"list", what}, folder.path());
     EXPECT_EQ(ended.exit_code, 0) << what;

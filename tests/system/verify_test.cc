@@ -34,6 +34,23 @@ TEST(Verify, prints_the_matrix_and_writes_it_as_data) {
   }
 }
 
+TEST(Verify, its_quick_matrix_is_a_benchmark_of_compare) {
+  const Folder folder;
+  const auto ended = run_program({"compare", "hard_cases", "--output", "out", "--quiet"}, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_TRUE(has(ended.out, "Hard cases: ")) << ended.out;
+  EXPECT_LT(ended.out.size(), 4000u); // the terminal gets the counts
+  const auto json = nlohmann::json::parse(contents(folder / "out/results.json"));
+  EXPECT_GT(json.at("cells").size(), 500u);
+  for (const auto &cell : json.at("cells")) {
+    EXPECT_EQ(cell.at("benchmark"), "hard_cases");
+    EXPECT_NE(cell.at("parameters").at("verdict"), "fails") << cell;
+    EXPECT_FALSE(cell.at("parameters").at("reference").get<std::string>().empty());
+  }
+  for (const auto *file : {"out/report.html", "out/results.md", "out/results.txt", "out/results_tables.tex"})
+    EXPECT_TRUE(has(contents(folder / file), "Hard cases: incompressibility")) << file;
+}
+
 TEST(Verify, lists_its_cases_without_running_them) {
   const Folder folder;
   const auto ended = run_program({"verify", "--list"}, folder.path());

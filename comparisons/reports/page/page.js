@@ -36,6 +36,7 @@
 
   const groups = new Map();
   for (const cell of results.cells) {
+    if (cell.benchmark === 'hard_cases') continue; // no levels, no cost: a table of their own
     const title = [cell.benchmark + (cell.scene ? ' / ' + cell.scene : ''), cell.variant].filter(Boolean).join(', ');
     if (!groups.has(title)) groups.set(title, []);
     groups.get(title).push(cell);

@@ -13,29 +13,73 @@ namespace meshless::basis {
 
 namespace {
 
-constexpr std::size_t largest_batch = 64;
+constexpr std::size_t largest_batch = 32;
+/// Points that a cell should hold: two packs fill the lanes and share one search.
+constexpr double aimed_points = 16;
+/// Largest edge of a cell, in units of the mean h: farther points share too few neighbours.
+constexpr double largest_edge = 1.8;
 
+/// Bits of a cell's number along an axis, and of the place within the cell.
 template <int dim>
-struct SortedCells {
-  std::vector<std::array<std::int64_t, dim>> cell; ///< of every point
-  std::vector<std::size_t> order;                  ///< points, those of a cell together
+constexpr int cell_bits = dim == 3 ? 15 : 21;
+template <int dim>
+constexpr int place_bits = dim == 3 ? 6 : 10;
+
+/// The bits of x, dim - 1 zeros after each: a bit moves by its own number, in halves of halves.
+template <int dim>
+std::uint64_t spread_bits(std::uint64_t x) {
+  if constexpr (dim == 2) {
+    x = (x | x << 16) & 0x0000ffff0000ffff;
+    x = (x | x << 8) & 0x00ff00ff00ff00ff;
+    x = (x | x << 4) & 0x0f0f0f0f0f0f0f0f;
+    x = (x | x << 2) & 0x3333333333333333;
+    x = (x | x << 1) & 0x5555555555555555;
+  } else if constexpr (dim == 3) {
+    x = (x | x << 32) & 0x001f00000000ffff;
+    x = (x | x << 16) & 0x001f0000ff0000ff;
+    x = (x | x << 8) & 0x100f00f00f00f00f;
+    x = (x | x << 4) & 0x10c30c30c30c30c3;
+    x = (x | x << 2) & 0x1249249249249249;
+  }
+  return x;
+}
+
+/// Points along a Morton curve through square cells: those of a cell follow each other, and any few of them lie close
+/// together.
+template <int dim>
+struct SortedPoints {
+  std::vector<std::pair<std::uint64_t, std::size_t>> curve; ///< number on the curve, and the point
+  double edge = 0;                                          ///< of a cell, m
+
+  std::uint64_t cell(std::size_t place) const { return curve[place].first >> (dim * place_bits<dim>); }
 };
 
+/// Cells are numbered from the corner of the bounding box; beyond the last number they share it, and their points may
+/// then be far from each other.
 template <int dim>
-SortedCells<dim> sort_into_cells(std::span<const cloud::Point<dim>> points, const cloud::Point<dim> &origin,
-                                 double cell_size) {
-  SortedCells<dim> sorted;
-  sorted.cell.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
+SortedPoints<dim> sort_points(std::span<const cloud::Point<dim>> points, double mean_h) {
+  cloud::Point<dim> low = points[0];
+  cloud::Point<dim> high = points[0];
+  for (const auto &x : points)
     for (int k = 0; k < dim; ++k) {
-      const double c = std::floor((points[i][k] - origin[k]) / cell_size);
-      sorted.cell[i][k] = static_cast<std::int64_t>(std::clamp(c, -9e15, 9e15));
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
     }
-  sorted.order.resize(points.size());
-  std::iota(sorted.order.begin(), sorted.order.end(), std::size_t{0});
-  std::sort(sorted.order.begin(), sorted.order.end(), [&](std::size_t a, std::size_t b) {
-    return sorted.cell[a] != sorted.cell[b] ? sorted.cell[a] < sorted.cell[b] : a < b;
-  });
+  double volume = aimed_points / static_cast<double>(points.size()); // if they fill the box evenly
+  for (int k = 0; k < dim; ++k)
+    volume *= std::max(high[k] - low[k], 1e-3 * mean_h);
+  SortedPoints<dim> sorted;
+  sorted.edge = std::clamp(std::pow(volume, 1.0 / dim), .1 * mean_h, largest_edge * mean_h);
+  const double per_edge = std::ldexp(1 / sorted.edge, place_bits<dim>);
+  const double last = std::ldexp(1.0, cell_bits<dim> + place_bits<dim>) - 1;
+  sorted.curve.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::uint64_t key = 0;
+    for (int k = 0; k < dim; ++k)
+      key |= spread_bits<dim>(static_cast<std::uint64_t>(std::min((points[i][k] - low[k]) * per_edge, last))) << k;
+    sorted.curve[i] = {key, i};
+  }
+  std::sort(sorted.curve.begin(), sorted.curve.end());
   return sorted;
 }
 
@@ -45,9 +89,12 @@ template <int dim>
 void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
                                    const Visitor &visitor, const char *noun) const {
   const auto &particles = search_->particles();
+  if (points.empty())
+    return;
   const auto h = particles.smoothing_lengths();
   const double mean = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
-  auto sorted = sort_into_cells<dim>(points, particles.position(0), 1.5 * mean);
+  const auto sorted = sort_points<dim>(points, mean);
+  const double diagonal_squared = dim * sorted.edge * sorted.edge * (1 + 1e-9);
 
   PointBatch<dim> batch;
   CandidateBatch<dim> candidate_batch;
@@ -73,29 +120,32 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
     }
     visitor(Group{group, taking_part, values, regularity});
   };
+  std::vector<std::size_t> group;
   for (std::size_t begin = 0; begin < points.size();) {
-    std::size_t end = begin + 1;
-    while (end < points.size() && end - begin < largest_batch &&
-           sorted.cell[sorted.order[end]] == sorted.cell[sorted.order[begin]])
-      ++end;
-    cloud::Point<dim> low = points[sorted.order[begin]];
+    cloud::Point<dim> low = points[sorted.curve[begin].second];
     cloud::Point<dim> high = low;
-    for (std::size_t i = begin; i < end; ++i)
+    group.clear();
+    for (std::size_t place = begin; place < points.size() && group.size() < largest_batch; ++place) {
+      const auto &x = points[sorted.curve[place].second];
+      if (sorted.cell(place) != sorted.cell(begin) ||
+          cloud::distance_squared<dim>(x, points[sorted.curve[begin].second]) > diagonal_squared)
+        break;
+      group.push_back(sorted.curve[place].second);
       for (int k = 0; k < dim; ++k) {
-        low[k] = std::min(low[k], points[sorted.order[i]][k]);
-        high[k] = std::max(high[k], points[sorted.order[i]][k]);
+        low[k] = std::min(low[k], x[k]);
+        high[k] = std::max(high[k], x[k]);
       }
+    }
     for (int k = 0; k < dim; ++k)
       centre[k] = 0.5 * (low[k] + high[k]);
     // Slack of rounding, so that the farthest point of the group is covered.
     const double radius = std::sqrt(cloud::distance_squared<dim>(centre, high)) + 1e-12 * mean;
     search_->collect(centre, radius, candidates);
-    const auto group = std::span(sorted.order).subspan(begin, end - begin);
+    begin += group.size();
     if (filter_ && filter_->active(centre, radius, reach_of(candidates, centre)))
       evaluate_filtered(points, group, candidates, evaluate);
     else
       evaluate(group, candidates);
-    begin = end;
   }
 }
 

@@ -18,11 +18,12 @@ using linear_algebra::n_lanes;
 using linear_algebra::Pack;
 using linear_algebra::store;
 
-/// Moment matrices with a smaller pivot ratio have their shape functions refined once: the monomials
-/// are then reproduced to rounding all the same. Second derivatives always have: collocation
-/// amplifies their rounding by h^-2 (a cubic on 16 x 4 particles, m = 3: relative error 3e-10
-/// without, 1e-12 with it).
+/// Moment matrices with a smaller pivot ratio have their shape functions refined once: the monomials are then
+/// reproduced to rounding all the same. Second derivatives need it sooner, for collocation amplifies their rounding by
+/// h^-2 (a cubic on 16 x 4 particles, m = 3: relative error 3e-10 without, 1e-12 with it); inside of even clouds the
+/// ratio is .5 for m = 2, .3 for m = 3.
 constexpr double refined_pivot_ratio = 1e-2;
+constexpr double refined_for_second_derivatives = .4;
 
 /// How far from the centre of the monomials the points may lie, in units of the scale (the mean h): rounding grows with
 /// the power 2 m of this distance over the width of the kernel.
@@ -192,7 +193,7 @@ private:
     Matrix matrix;
     const Pack ratios = factorise(matrix, place.moments(place.weights), first, points.size(), workspace, regularity);
     note_regularity(ratios, first, points.size(), regularity);
-    place.refine = wanted.hessian || any_of(ratios < refined_pivot_ratio);
+    place.refine = any_of(ratios < (wanted.hessian ? refined_for_second_derivatives : refined_pivot_ratio));
 
     if (wanted.value)
       write_direct(matrix, place, 0, 1, 0);

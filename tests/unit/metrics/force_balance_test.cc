@@ -99,6 +99,29 @@ TEST(ForceBalance, a_wrong_stress_leaves_its_share) {
   EXPECT_NEAR(wrong.imbalance, .1 * std::hypot(.5, 1) / loads, 1e-12);
 }
 
+/// By the equations of a method with a penalty alpha the bottom is held by sigma n - alpha (u - ubar): a stress that is
+/// a tenth too large balances with the displacement that takes a tenth back, and only with that.
+TEST(ForceBalance, the_penalty_is_a_part_of_the_force_of_a_support) {
+  auto statement = quarter_ring();
+  statement.conditions.at(0).displacement = [](std::span<const Point2>, std::span<Vector2> u) {
+    for (auto &value : u)
+      value = {.3, -.2};
+  };
+  constexpr double alpha = 1e4;
+  const auto stress = [](const Point2 &x) -> GivenStress::Stress { return {1.1 * (2 + 3 * x[1]), -1.1, 1.1 * .5}; };
+  const auto with = [&](const Vector2 &u) {
+    return metrics::equilibrium(GivenStress(stress, alpha, u), statement, {});
+  };
+  // sigma n = (-.5, 1) along the bottom, of length 1.
+  const auto balanced = with({.3 - .1 * .5 / alpha, -.2 + .1 / alpha});
+  const auto at_rest = with({.3, -.2});
+  ASSERT_TRUE(balanced.discrete_imbalance && at_rest.discrete_imbalance);
+  EXPECT_LT(*balanced.discrete_imbalance, 1e-12);
+  EXPECT_NEAR(*at_rest.discrete_imbalance, at_rest.imbalance, 1e-12);
+  EXPECT_GT(at_rest.imbalance, 1e-3);
+  EXPECT_FALSE(metrics::equilibrium(GivenStress(stress), statement, {}).discrete_imbalance);
+}
+
 /// Loads that balance on one boundary are loads: a small imbalance beside them is small.
 TEST(ForceBalance, loads_that_balance_among_themselves_count) {
   auto statement = quarter_ring();

@@ -149,3 +149,54 @@ TEST(ObservedRate, IsNotGivenWhereItMeansNothing) {
   EXPECT_EQ(observed_rate(groups[0], results.cells[1], "displacement_l2_relative"), std::nullopt);
   EXPECT_EQ(observed_rate(groups[0], results.cells[3], "displacement_l2_relative"), std::nullopt);
 }
+
+namespace {
+
+/// A cell of the matrix of hard cases.
+Cell hard_cell(const std::string &name, const std::string &method, const char *verdict, Status status) {
+  Cell cell;
+  cell.benchmark = "hard_cases";
+  cell.scene = "patch";
+  cell.variant = name;
+  cell.method = cell.label = method;
+  cell.level = "-";
+  cell.status = status;
+  cell.expected = status != Status::failed;
+  cell.parameters = {{"verdict", verdict}, {"threshold", 1e-8}, {"reference", "the field itself"}};
+  cell.errors["error_of_case"] = 2.5e-11;
+  if (status != Status::ok)
+    cell.reason = "said by name";
+  return cell;
+}
+
+} // namespace
+
+TEST(HardCases, AreATableOfTheirOwnAndNoComparison) {
+  Results results = reports_sample::results();
+  const std::size_t n_groups = group_cells(results).size();
+  results.cells.push_back(hard_cell("linear, grid", "weak1", "holds", Status::ok));
+  results.cells.push_back(hard_cell("linear, grid", "weak2", "refused", Status::refused));
+  results.cells.push_back(hard_cell("linear, graded", "weak2", "fails", Status::failed));
+  EXPECT_EQ(group_cells(results).size(), n_groups);
+  results = parse_results(json_text(results));
+  for (const std::string &report :
+       {text_report(results), markdown_report(results), latex_report(results), html_page(results, {})})
+    for (const char *part : {"Hard cases: patch", "3 cells; 1 hold, 0 degrade, 1 are refused by name, 1 fail",
+                             "linear, grid", "the field itself", "said by name"})
+      EXPECT_TRUE(contains(report, part)) << part;
+  EXPECT_TRUE(contains(text_report(results), "2.500e-11"));
+  const std::string brief = brief_report(results);
+  EXPECT_TRUE(contains(brief, "Hard cases: 3 cells"));
+  EXPECT_FALSE(contains(brief, "linear, grid"));                      // the terminal gets the counts alone
+  EXPECT_TRUE(contains(brief, "hard_cases / patch, linear, graded")); // and what fails
+}
+
+TEST(HardCases, OfAFileFromElsewhereMayLackEverything) {
+  Results results;
+  results.scene = nlohmann::ordered_json::array();
+  results.cells.push_back(hard_cell("case", "weak1", "holds", Status::ok));
+  results.cells.back().parameters = {{"verdict", 1}, {"threshold", "none"}};
+  EXPECT_TRUE(contains(text_report(results), "0 hold"));
+  results.cells.back().parameters = nlohmann::ordered_json::array();
+  EXPECT_TRUE(contains(text_report(results), "Hard cases: patch"));
+}
