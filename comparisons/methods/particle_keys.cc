@@ -148,7 +148,8 @@ std::vector<Declaration> weak_declarations() {
            .choices = {"paper", "consistent"},
            .default_value = "paper",
            .meaning = "paper: nG x 4 nG Gauss points; consistent: 3 x 8 points for order 1 and 2, 3 x 12 for 3, "
-                      "4 x 16 for 4, and a gradient of the test function made consistent with them"},
+                      "4 x 16 for 4, twice as many along a ray where the boundary cuts, and a gradient of the test "
+                      "function made consistent with them"},
           {.name = "quadrature_points",
            .type = Type::integer,
            .range = {.lower = 1, .upper = 64},

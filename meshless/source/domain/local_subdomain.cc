@@ -117,12 +117,15 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
     return;
   }
   quadrature.whole = false;
+  SubdomainPoints cut = points_;
+  if (points_.radial_cut > 0)
+    cut.radial = points_.radial_cut;
   s.make_wedges(*boundary_, visibility_);
   bool any_hidden = false;
   for (const auto &wedge : s.all_wedges()) {
     any_hidden = any_hidden || (visibility_ && wedge.any(Interval::hidden));
     if (wanted.interior && wedge.any(Interval::visible))
-      s.add_wedge(wedge, points_, quadrature);
+      s.add_wedge(wedge, cut, quadrature);
   }
   for (const auto &[slot, part] : s.parts)
     s.add_boundary(slot, part, any_hidden, points_.boundary, quadrature);

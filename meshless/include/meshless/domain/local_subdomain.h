@@ -54,9 +54,10 @@ struct SubdomainPoints {
   /// Gauss points in r^2 instead of r, and equispaced angles on whole discs: exact for polynomials of a higher degree
   /// with the same number of points.
   bool by_area = false;
+  int radial_cut = 0; ///< in place of `radial` where the boundary cuts the disc; 0: the same
 
   /// nG x 4 nG, Batra & Zhang 2008.
-  static SubdomainPoints paper(int n_radial) { return {n_radial, 4 * n_radial, n_radial, false}; }
+  static SubdomainPoints paper(int n_radial) { return {n_radial, 4 * n_radial, n_radial, false, 0}; }
 };
 
 /// Gauss rule of n_radial x 4 n_radial points on discs, cut exactly by lines and circular arcs

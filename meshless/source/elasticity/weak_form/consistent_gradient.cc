@@ -105,7 +105,9 @@ bool ConsistentGradient::correct(const domain::Point2 &centre, double radius,
 }
 
 domain::SubdomainPoints consistent_points(int order) {
-  return {.radial = order <= 3 ? 3 : 4, .angular = std::max(8, 4 * order), .boundary = 5, .by_area = true};
+  const int radial = order <= 3 ? 3 : 4;
+  return {
+      .radial = radial, .angular = std::max(8, 4 * order), .boundary = 5, .by_area = true, .radial_cut = 2 * radial};
 }
 
 } // namespace meshless::elasticity::weak_form

@@ -81,6 +81,7 @@ void ConsistentSubdomain::build(const Point2 &centre, double radius, ConsistentP
   auto numbers = consistent_points(order_);
   for (int refinement = 0; refinement < largest_refinement; ++refinement) {
     numbers.radial *= 2;
+    numbers.radial_cut *= 2;
     numbers.angular *= 2;
     domain::SubdomainRule finer(*boundary_, numbers, visibility_);
     if (evaluate(finer))
