@@ -212,9 +212,6 @@ Measurement l_shape_energy_rate(const std::string &method) {
   if (!(std::abs(first - second) <= .3))
     result.warnings.push_back(fmt::format("errors of {:.3g}, {:.3g}, {:.3g}: rates of {:.2f} and {:.2f} do not agree",
                                           errors[0], errors[1], errors[2], first, second));
-  if (shortfall > .1)
-    result.warnings.push_back(fmt::format("errors of {:.3g}, {:.3g}, {:.3g}: the rate is {:.2f} below the exponent",
-                                          errors[0], errors[1], errors[2], shortfall));
   return result;
 }
 
