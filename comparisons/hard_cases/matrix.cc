@@ -1,6 +1,7 @@
 #include "comparisons/hard_cases/matrix.h"
 
 #include "comparisons/methods/method_table.h"
+#include "comparisons/metrics/machine.h"
 #include "comparisons/study/isolation.h"
 
 #include "meshless/basis/shape_functions.h"
@@ -110,6 +111,7 @@ std::vector<HardCase> select(std::vector<HardCase> cases, const Selection &selec
 }
 
 std::vector<MatrixCell> run_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options) {
+  metrics::use_threads(1); // BLAS takes all cores otherwise, which small systems only wait for
   std::vector<MatrixCell> cells;
   for (const auto &hard_case : cases)
     for (const auto &method : hard_case.methods) {

@@ -79,8 +79,8 @@ TEST(CaseTable, every_case_says_what_it_is_and_why_its_threshold) {
 class Family : public testing::TestWithParam<const char *> {};
 INSTANTIATE_TEST_SUITE_P(Quick, Family,
                          testing::Values("patch", "slenderness", "degenerate", "shift", "contrast", "L-shape",
-                                         "slot of", "penalty", "bar wave", "time step", "Swegle", "gas", "zero modes",
-                                         "complex eigenvalues"),
+                                         "slot of", "slit", "penalty", "bar wave", "time step", "Swegle", "gas",
+                                         "zero modes", "complex eigenvalues"),
                          [](const auto &instance) {
                            std::string name = instance.param;
                            std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
@@ -129,6 +129,25 @@ TEST(ComplexEigenvalues, end_a_run_by_name) {
   EXPECT_EQ(grows.verdict, CellVerdict::refused);
   EXPECT_NE(grows.reason.find("energy grows"), std::string::npos) << grows.reason;
   EXPECT_EQ(one("plate, complex eigenvalues", "fem Q2").verdict, CellVerdict::holds);
+}
+
+TEST(Slit, is_refused_by_name) {
+  for (const auto *method : {"weak1", "mixed", "strong", "fem Q2"}) {
+    const auto cell = one("slit: a slot of no width", method);
+    EXPECT_EQ(cell.verdict, CellVerdict::refused) << method;
+    EXPECT_FALSE(cell.reason.empty()) << method;
+  }
+}
+
+TEST(ReentrantCorner, energy_of_elements_falls_with_the_singular_exponent) {
+  auto cases =
+      select(case_table(catalogue()), {.cases = {"L-shape, rate of the stress"}, .methods = {}, .quick = false});
+  ASSERT_EQ(cases.size(), 1u);
+  cases[0].methods = {"fem Q1", "fem Q2", "weak1"};
+  for (const auto &cell : run_matrix(cases, {.max_seconds = 60, .stop_requested = {}, .progress = {}})) {
+    ASSERT_TRUE(cell.value.has_value()) << cell.method << cell.reason;
+    EXPECT_NEAR(*cell.value, .5445, .1) << cell.method;
+  }
 }
 
 TEST(Slenderness, q1_with_full_integration_visibly_locks_and_q2_does_not) {

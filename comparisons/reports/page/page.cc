@@ -1,6 +1,7 @@
 #include "comparisons/reports/page/page.h"
 
 #include "comparisons/reports/answers.h"
+#include "comparisons/reports/hard_cases_section.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/reports/page/html.h"
 #include "comparisons/reports/page/svg.h"
@@ -198,6 +199,7 @@ std::string html_page(const Results &results, const PageFiles &files) {
     alarms += fmt::format("<p class='alarm'>NOT COMPARABLE: {}</p>\n", html_escaped(reason));
   if (results.interrupted)
     alarms += "<p class='alarm'>INTERRUPTED: the cells that had not been computed are missing.</p>\n";
+  const bool to_explore = !std::all_of(results.cells.begin(), results.cells.end(), is_hard_case);
   return fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
       "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
@@ -206,8 +208,8 @@ std::string html_page(const Results &results, const PageFiles &files) {
       "<link rel='icon' href='data:,'>\n<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n"
       "<a class='skip' href='#main'>To the results</a>\n"
       "<header><h1>{0}</h1>\n<p>Error against time, the seconds for equal errors and the numbers printed in papers. "
-      "{2} {3}, commit {4}.</p>\n{5}</header>\n<nav aria-label='Sections'><ul><li class='scripted' hidden><a "
-      "href='#explore'>Explore</a></li>{6}</ul></nav>\n{7}<main id='main' tabindex='-1'>\n{8}{9}{10}"
+      "{2} {3}, commit {4}.</p>\n{5}</header>\n<nav aria-label='Sections'><ul>{14}{6}</ul></nav>\n{7}<main id='main' "
+      "tabindex='-1'>\n{8}{9}{10}"
       "<section id='data-files' aria-labelledby='data-title'><h2 id='data-title'>Data</h2>\n<p id='downloads'>The "
       "numbers "
       "of this page in full: results.json and results.csv beside it. <span class='scripted' hidden>Or from within it: "
@@ -217,7 +219,7 @@ std::string html_page(const Results &results, const PageFiles &files) {
       html_escaped(body.title()), files.style, html_escaped(results.program.name),
       html_escaped(results.program.version), html_escaped(results.program.commit), alarms, body.links(),
       marker_definitions(), body.summary(), explorer, body.html(), packed_json(results), inline_script(files.charts),
-      inline_script(files.script));
+      inline_script(files.script), to_explore ? "<li class='scripted' hidden><a href='#explore'>Explore</a></li>" : "");
 }
 
 } // namespace comparisons::reports

@@ -125,6 +125,14 @@ void Boundary::link() {
                                [&](std::size_t k, double x) { return pieces_[k].begin[0] < x; });
     for (; at != order.end() && pieces_[*at].begin[0] <= end[0] + tolerance_; ++at) {
       const auto &begin = pieces_[*at].begin;
+      const auto &back = pieces_[*at].end;
+      // Particles on one face would see those on the other: the body would be whole, and nothing would say so.
+      if (!pieces_[i].arc && !pieces_[*at].arc && std::hypot(begin[0] - end[0], begin[1] - end[1]) <= tolerance_ &&
+          std::hypot(back[0] - pieces_[i].begin[0], back[1] - pieces_[i].begin[1]) <= tolerance_)
+        throw std::invalid_argument(
+            fmt::format("boundary pieces {} and {} lie on each other up to ({:.6g}, {:.6g}): a slit of no width cannot "
+                        "be represented; open it by a small angle or width",
+                        i, *at, end[0], end[1]));
       // Where two loops touch, each piece is the successor of one.
       if (!taken[*at] && std::hypot(begin[0] - end[0], begin[1] - end[1]) <= tolerance_) {
         next_[i] = *at;

@@ -185,6 +185,7 @@ TEST(HardCases, AreATableOfTheirOwnAndNoComparison) {
                              "linear, grid", "the field itself", "said by name"})
       EXPECT_TRUE(contains(report, part)) << part;
   EXPECT_TRUE(contains(text_report(results), "2.500e-11"));
+  EXPECT_TRUE(contains(html_page(results, {}), "href='#explore'"));
   const std::string brief = brief_report(results);
   EXPECT_TRUE(contains(brief, "Hard cases: 3 cells"));
   EXPECT_FALSE(contains(brief, "linear, grid"));                      // the terminal gets the counts alone
@@ -197,6 +198,7 @@ TEST(HardCases, OfAFileFromElsewhereMayLackEverything) {
   results.cells.push_back(hard_cell("case", "weak1", "holds", Status::ok));
   results.cells.back().parameters = {{"verdict", 1}, {"threshold", "none"}};
   EXPECT_TRUE(contains(text_report(results), "0 hold"));
+  EXPECT_FALSE(contains(html_page(results, {}), "href='#explore'")); // nothing to explore, and no link to it
   results.cells.back().parameters = nlohmann::ordered_json::array();
   EXPECT_TRUE(contains(text_report(results), "Hard cases: patch"));
 }
