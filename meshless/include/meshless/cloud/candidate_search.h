@@ -10,7 +10,7 @@ namespace meshless::cloud {
 /// Finds the particles whose support reaches into a ball: the candidates that all points of the
 /// ball share. The support of particle j is the ball of radius `support` h_j around it.
 ///
-/// One smoothing length uses a cell list, varying ones a k-d tree.
+/// Smoothing lengths within a factor of two use a cell list, others a k-d tree.
 template <int dim>
 class CandidateSearch {
 public:
