@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t largest_batch = 32;
 /// Points that a cell should hold: two packs fill the lanes and share one search.
 constexpr double aimed_points = 16;
-/// Largest edge of a cell, in units of the mean h: farther points share too few neighbours.
-constexpr double largest_edge = 1.8;
+/// Largest half diagonal of a cell, in units of the mean h: farther points share too few neighbours, and a basis may
+/// take monomials about one place for all of them (weighted_basis.cc).
+constexpr double largest_reach = .99;
 
 /// Bits of a cell's number along an axis, and of the place within the cell.
 template <int dim>
@@ -69,7 +70,8 @@ SortedPoints<dim> sort_points(std::span<const cloud::Point<dim>> points, double 
   for (int k = 0; k < dim; ++k)
     volume *= std::max(high[k] - low[k], 1e-3 * mean_h);
   SortedPoints<dim> sorted;
-  sorted.edge = std::clamp(std::pow(volume, 1.0 / dim), .1 * mean_h, largest_edge * mean_h);
+  sorted.edge =
+      std::clamp(std::pow(volume, 1.0 / dim), .1 * mean_h, 2 * largest_reach / std::sqrt(double(dim)) * mean_h);
   const double per_edge = std::ldexp(1 / sorted.edge, place_bits<dim>);
   const double last = std::ldexp(1.0, cell_bits<dim> + place_bits<dim>) - 1;
   sorted.curve.resize(points.size());

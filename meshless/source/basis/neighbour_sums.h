@@ -34,16 +34,33 @@ struct NeighbourSums {
   /// @param weights of neighbour a at a * n_lanes
   Moments moments(const double *weights) const {
     Moments result;
-    sum_blocks<0, n_moments>([weights](std::size_t a) { return weights + a * linear_algebra::n_lanes; }, result.data());
+    sum_blocks<0>(weights, result.data());
     return result;
   }
 
-  /// sum_J phi_J p_J over the terms of the basis.
+  /// sum_J phi_J p_J over the terms of the basis about the points x themselves: about the centre of the table rounding
+  /// would be that of monomials as large as the distance between the two.
   /// @param row phi of candidate j at j * stride
-  Vector reproduced(const double *row, std::size_t stride) const {
-    Vector result;
-    sum_blocks<0, n>([row, stride, this](std::size_t a) { return row + static_cast<std::size_t>(active[a]) * stride; },
-                     result.data());
+  Vector reproduced(const CandidateBatch<dim> &candidates, const std::array<Pack, dim> x, const double *row,
+                    std::size_t stride) const {
+    std::array<const double *, dim> coordinates;
+    for (int k = 0; k < dim; ++k)
+      coordinates[k] = candidates.coordinate(k);
+    const double inverse_scale = 1 / candidates.scale();
+    Vector result{};
+    for (std::size_t a = 0; a < n_active; ++a) {
+      const auto j = static_cast<std::size_t>(active[a]);
+      std::array<Pack, dim> d;
+      for (int k = 0; k < dim; ++k)
+        d[k] = (coordinates[k][j] - x[k]) * inverse_scale;
+      Vector own;
+      Monomials<dim, m>::evaluate(d, own);
+      const Pack phi = linear_algebra::load(row + j * stride);
+      result[0] += phi;
+#pragma GCC unroll 36
+      for (std::size_t t = 1; t < n; ++t)
+        result[t] += phi * own[t];
+    }
     return result;
   }
 
@@ -67,21 +84,21 @@ private:
   /// Sums that the registers hold at a time (32 of AVX-512, 16 otherwise), beside the weight.
   static constexpr std::size_t largest_block = linear_algebra::n_lanes >= 8 ? 28 : 12;
 
-  template <std::size_t begin, std::size_t end, typename WeightOf>
-  void sum_blocks(const WeightOf &weight_of, Pack *result) const {
-    constexpr std::size_t n_blocks = (end - begin + largest_block - 1) / largest_block;
-    constexpr std::size_t size = (end - begin + n_blocks - 1) / n_blocks;
-    sum_block<begin, size>(weight_of, result);
-    if constexpr (begin + size < end)
-      sum_blocks<begin + size, end>(weight_of, result);
+  template <std::size_t begin>
+  void sum_blocks(const double *weights, Pack *result) const {
+    constexpr std::size_t n_blocks = (n_moments - begin + largest_block - 1) / largest_block;
+    constexpr std::size_t size = (n_moments - begin + n_blocks - 1) / n_blocks;
+    sum_block<begin, size>(weights, result);
+    if constexpr (begin + size < n_moments)
+      sum_blocks<begin + size>(weights, result);
   }
 
-  template <std::size_t begin, std::size_t size, typename WeightOf>
-  [[gnu::noinline]] void sum_block(const WeightOf weight_of, Pack *result) const {
+  template <std::size_t begin, std::size_t size>
+  [[gnu::noinline]] void sum_block(const double *weights, Pack *result) const {
     [&]<std::size_t... t>(std::index_sequence<t...>) {
       std::array<Pack, size> sums{};
       for (std::size_t a = 0; a < n_active; ++a) {
-        const Pack weight = linear_algebra::load(weight_of(a));
+        const Pack weight = linear_algebra::load(weights + a * linear_algebra::n_lanes);
         const double *p = terms(a) + begin;
         ((sums[t] += weight * p[t]), ...);
       }

@@ -27,7 +27,7 @@ constexpr double refined_for_second_derivatives = .4;
 
 /// How far from the centre of the monomials the points may lie, in units of the scale (the mean h): rounding grows with
 /// the power 2 m of this distance over the width of the kernel.
-constexpr double largest_offset = 1.5;
+constexpr double largest_offset = 1;
 
 /// Shape functions phi_J = a . p_J W_J with C a = q, from the moments of all neighbours.
 ///
@@ -67,6 +67,8 @@ class WeightedBasis final : public ShapeFunctions<dim> {
   struct Place {
     Sums sums;
     const double *weights;
+    const CandidateBatch<dim> &candidates;
+    Offset x;
     Offset offset; ///< of the points from the centre of the table, in units of the scale
     Values &values;
     std::size_t first;
@@ -184,6 +186,8 @@ private:
     zero_rows(values, first, workspace.active);
     Place place{.sums = {workspace.active.data(), workspace.active.size(), table.rows.data()},
                 .weights = workspace.weights.data(),
+                .candidates = candidates,
+                .x = x,
                 .offset = offset,
                 .values = values,
                 .first = first,
@@ -211,7 +215,7 @@ private:
         }
     }
     if (derivatives != WeightDerivatives::none)
-      write_differentiated(matrix, place, x, candidates, wanted, derivatives == WeightDerivatives::second, workspace);
+      write_differentiated(matrix, place, wanted, derivatives == WeightDerivatives::second, workspace);
   }
 
   /// The moment matrix of a kernel with negative values need not be positive definite: where its pivots are
@@ -270,8 +274,7 @@ private:
   /// scale, is measured on the shape functions themselves, whose rounding is that of the result, not
   /// that of the moment matrix; the correction is added to them for the same reason.
   static void refine(const Matrix &matrix, const Place &place, std::size_t term, double scale, int quantity) {
-    Vector residual = place.sums.reproduced(place.row(quantity), place.stride());
-    Translation<dim, m>::move_moments(place.offset, residual);
+    Vector residual = place.sums.reproduced(place.candidates, place.x, place.row(quantity), place.stride());
     for (auto &entry : residual)
       entry = -entry;
     residual[term] += scale;
@@ -280,8 +283,8 @@ private:
   }
 
   /// Derivatives of the weights by the point, as the weights themselves: dim first ones, then the second ones.
-  static void differentiate_weights(const Place &place, const Offset &x, const CandidateBatch<dim> &candidates,
-                                    bool second, Workspace &workspace) {
+  static void differentiate_weights(const Place &place, bool second, Workspace &workspace) {
+    const auto &candidates = place.candidates;
     const std::size_t n_weights = place.sums.n_active * n_lanes;
     auto &derivatives = workspace.weight_derivatives;
     derivatives.resize((dim + (second ? Values::n_hessian : 0)) * n_weights);
@@ -291,7 +294,7 @@ private:
       const Pack slope = load(&workspace.slopes[a * n_lanes]) * to_h;
       Offset d;
       for (int k = 0; k < dim; ++k) {
-        d[k] = candidates.coordinate(k)[j] - x[k];
+        d[k] = candidates.coordinate(k)[j] - place.x[k];
         // s^2 falls as x moves towards the particle
         store(-slope * d[k], &derivatives[static_cast<std::size_t>(k) * n_weights + a * n_lanes]);
       }
@@ -310,10 +313,9 @@ private:
   }
 
   /// Derivatives of the shape function itself; formulas above.
-  void write_differentiated(const Matrix &matrix, const Place &place, const Offset &x,
-                            const CandidateBatch<dim> &candidates, const Wanted &wanted, bool second,
+  void write_differentiated(const Matrix &matrix, const Place &place, const Wanted &wanted, bool second,
                             Workspace &workspace) const {
-    differentiate_weights(place, x, candidates, second, workspace);
+    differentiate_weights(place, second, workspace);
     const auto derivative = [&](std::size_t which) {
       return workspace.weight_derivatives.data() + which * place.sums.n_active * n_lanes;
     };
