@@ -5,10 +5,14 @@
 #include "meshless/linear_algebra/pack.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -27,6 +31,11 @@ struct EndRow {
     const auto entries = std::pair{first.offsets()[i], first.offsets()[i + 1]};
     const auto columns = first.columns().subspan(static_cast<std::size_t>(entries.first),
                                                  static_cast<std::size_t>(entries.second - entries.first));
+    if (std::find(columns.begin(), columns.end(), static_cast<std::int64_t>(i)) == columns.end())
+      throw std::invalid_argument(
+          fmt::format("the row of D1 at the end particle {} has no entry of its own, so that no "
+                      "stress can be prescribed there",
+                      i + 1));
     const auto [least, largest] = std::minmax_element(columns.begin(), columns.end());
     begin = static_cast<std::size_t>(*least);
     coefficients.assign(static_cast<std::size_t>(*largest - *least) + 1, 0.0);

@@ -5,6 +5,7 @@
 #include "meshless/dynamics/violation.h"
 #include "meshless/linear_algebra/diagonals.h"
 #include "meshless/linear_algebra/eigenvalues.h"
+#include "meshless/linear_algebra/floating_point_traps.h"
 #include "meshless/linear_algebra/pack.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 namespace meshless::dynamics {
 
 using linear_algebra::Diagonals;
+using linear_algebra::FloatingPointTraps;
 using linear_algebra::load;
 using linear_algebra::n_lanes;
 using linear_algebra::Pack;
@@ -72,7 +74,10 @@ public:
     ++steps_;
     left_stress_ = stress_of(options_.left_stress); // before the loop, which hides how long it takes
     right_stress_ = stress_of(options_.right_stress);
-    step_(arrays_, {.length = dt, .left_stress = left_stress_, .right_stress = right_stress_});
+    {
+      const FloatingPointTraps traps; // energy is checked long before it overflows
+      step_(arrays_, {.length = dt, .left_stress = left_stress_, .right_stress = right_stress_});
+    }
     const double *u = &displacement_[margin_];
     work_ += 0.5 * ((right_before + right_stress_) * (u[n_ - 1] - last_before) -
                     (left_before + left_stress_) * (u[0] - first_before));
@@ -220,6 +225,7 @@ private:
 
   /// What follows from the operators.
   void prepare_rows() {
+    const FloatingPointTraps traps; // the end rows are divided by their own entry
     using effects::Absent;
     const std::size_t w = second_.half_width();
     if (options_.viscosity)
@@ -260,6 +266,7 @@ private:
   /// Largest eigenvalue of -c^2 D2 with free ends by power iteration from a vector that is largest where neighbours
   /// move against each other, and the step that follows.
   double find_limit() {
+    const FloatingPointTraps traps;
     linear_algebra::AlignedVector x = displacement_;
     linear_algebra::AlignedVector y(x.size());
     for (std::size_t i = 0; i < n_; ++i)

@@ -1,6 +1,7 @@
 #include "meshless/dynamics/plane_motion.h"
 
 #include "meshless/dynamics/violation.h"
+#include "meshless/linear_algebra/floating_point_traps.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,7 @@ PlaneMotion::PlaneMotion(std::shared_ptr<const elasticity::EquationsOfMotion> eq
 
 /// Power iteration on m^-1 K: the geometric mean of the growth over ten products, until it changes by less than 1e-4.
 double PlaneMotion::spectral_radius() {
+  const linear_algebra::FloatingPointTraps traps;
   std::mt19937 random(12345);
   std::vector<double> x(u_.size());
   for (double &value : x)

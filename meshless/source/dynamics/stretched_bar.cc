@@ -2,6 +2,7 @@
 
 #include "meshless/basis/basis_options.h"
 #include "meshless/dynamics/violation.h"
+#include "meshless/linear_algebra/floating_point_traps.h"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ void StretchedBar::gradients(std::span<const double> places) {
     weights_ = options_.operators(places).first;
     return;
   }
+  const linear_algebra::FloatingPointTraps traps;
   weights_ = linear_algebra::SparseRows(static_cast<std::int64_t>(places.size()));
   std::visit(
       [&](const auto &kernel) {
@@ -90,16 +92,19 @@ void StretchedBar::step(double dt) {
              f(static_cast<std::size_t>(weights_.columns()[static_cast<std::size_t>(e)]));
     return sum;
   };
-  for (std::size_t i = 0; i < positions_.size(); ++i)
-    rate_[i] = row(i, [&](std::size_t j) { return stress_[j] + (conservative_ ? stress_[i] : 0); });
-  for (std::size_t i = 0; i < positions_.size(); ++i)
-    if (!is_held(i))
-      velocity_[i] += dt / options_.density * rate_[i];
-  for (std::size_t i = 0; i < positions_.size(); ++i)
-    rate_[i] = row(i, [&](std::size_t j) { return velocity_[j] - velocity_[i]; });
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    stress_[i] += dt * options_.youngs_modulus * rate_[i];
-    positions_[i] += dt * velocity_[i];
+  {
+    const linear_algebra::FloatingPointTraps traps; // every step is checked below, long before an overflow
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      rate_[i] = row(i, [&](std::size_t j) { return stress_[j] + (conservative_ ? stress_[i] : 0); });
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      if (!is_held(i))
+        velocity_[i] += dt / options_.density * rate_[i];
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      rate_[i] = row(i, [&](std::size_t j) { return velocity_[j] - velocity_[i]; });
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      stress_[i] += dt * options_.youngs_modulus * rate_[i];
+      positions_[i] += dt * velocity_[i];
+    }
   }
   time_ += dt;
   ++steps_;

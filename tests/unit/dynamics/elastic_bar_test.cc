@@ -5,12 +5,16 @@
 #include "meshless/dynamics/elastic_bar.h"
 #include "meshless/dynamics/stretched_bar.h"
 #include "meshless/dynamics/violation.h"
+#include "meshless/linear_algebra/floating_point_traps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -181,6 +185,45 @@ TEST(ElasticBar, KernelsAtCurrentPositionsGiveNearlyTheSameWave) {
   ASSERT_EQ(failure(current, 0.8, 40), "");
   for (std::size_t i = 0; i < 60; ++i) // second order in the strain
     EXPECT_NEAR(reference.displacement()[i], current.displacement()[i], 1e-2 * 0.01) << i;
+}
+
+// SPH's row is the derivative of the kernel, which is zero at its centre: it was read beside the row.
+TEST(ElasticBar, AnEndRowWithoutItsOwnEntryIsRefused) {
+  for (const bool empty : {false, true}) {
+    auto options = bar(20, "revised_super_gauss", 1.2);
+    options.operators = [made = options.operators, empty](std::span<const double> places) {
+      auto rows = made(places);
+      linear_algebra::SparseRows first(20);
+      for (std::int64_t i = 0; i < 20; ++i)
+        first.append_row(std::vector<std::int64_t>{i < 19 ? i + 1 : 0}, std::vector<double>{empty ? 0.0 : 1.0});
+      rows.first = first;
+      return rows;
+    };
+    EXPECT_THROW(ElasticBar{options}, std::invalid_argument) << empty;
+  }
+}
+
+TEST(ElasticBar, ANanMadeInAStepIsCaughtWhereItHappens) {
+  auto options = bar(20, "revised_super_gauss", 1.2);
+  options.kernel_positions = KernelPositions::current;
+  // The end rows of D1 are divided by their own entry, whose inverse is infinite once the particles have moved.
+  options.operators = [made = options.operators, calls = std::make_shared<int>(0)](std::span<const double> places) {
+    auto rows = made(places);
+    if (++*calls > 1)
+      rows.first = linear_algebra::combine(1e-320, rows.first, 0, rows.first);
+    return rows;
+  };
+  ElasticBar waves(options);
+  if (linear_algebra::FloatingPointTraps::active) {
+    EXPECT_EXIT(
+        {
+          std::signal(SIGFPE, SIG_DFL); // a sanitizer has a handler of its own
+          waves.step(0.5);
+        },
+        testing::KilledBySignal(SIGFPE), "");
+  } else {
+    EXPECT_NE(failure(waves, 0.5, 1).find("a value is not finite"), std::string::npos);
+  }
 }
 
 TEST(ElasticBar, AStateGoesOnWithTheSameBits) {

@@ -2,6 +2,7 @@
 
 #include "../weak_form/subdomain_radius.h"
 
+#include "meshless/linear_algebra/floating_point_traps.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@ namespace meshless::elasticity::mixed_form {
 
 namespace {
 
+using linear_algebra::FloatingPointTraps;
 using linear_algebra::Stopwatch;
 using PartKind = domain::SubdomainQuadrature::PartKind;
 
@@ -81,7 +83,10 @@ void Assembler::evaluate(const basis::ShapeFunctions<2> &basis, std::span<const 
                          basis::Wanted wanted, Field &field) {
   Stopwatch watch;
   batch_.assign(std::array<std::span<const double>, 2>{x, y});
-  const auto regularity = basis.evaluate(batch_, field.batch, wanted, field.values, workspace_);
+  const auto regularity = [&] { // judged outside: it is NaN where the moment matrix is singular
+    const FloatingPointTraps traps;
+    return basis.evaluate(batch_, field.batch, wanted, field.values, workspace_);
+  }();
   basis::require_regular(regularity, batch_, basis);
   seconds.basis += watch.lap();
 }
@@ -96,6 +101,7 @@ void Assembler::integrate_domain() {
     evaluate(pressure_basis_, x.subspan(begin, size), y.subspan(begin, size), {.value = true, .gradient = true},
              own_.p);
     Stopwatch watch;
+    const FloatingPointTraps traps;
     add_momentum(begin, size);
     add_continuity(begin, size);
     seconds.assembly += watch.lap();
@@ -241,6 +247,7 @@ void Assembler::add_flux(const Part &part, std::size_t region, const Rows &rows,
   evaluate(displacement_basis_, coordinates(part, 0), coordinates(part, 1), {.gradient = true}, fields.u);
   evaluate(pressure_basis_, coordinates(part, 0), coordinates(part, 1), {.value = true}, fields.p);
   Stopwatch watch;
+  const FloatingPointTraps traps;
   const auto &quadrature = points_.quadrature;
   const double mu = surroundings_.material(region).shear();
   for (std::size_t q = 0; q < part.end - part.begin; ++q) {

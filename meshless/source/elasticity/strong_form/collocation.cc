@@ -2,6 +2,7 @@
 
 #include "../equations.h"
 
+#include "meshless/linear_algebra/floating_point_traps.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
 #include "meshless/linear_algebra/system_solver.h"
@@ -161,6 +162,7 @@ public:
           rows.right_hand_side[static_cast<std::size_t>(i)] += material.thermal_modulus() *
                                                                group.values.gradient(i, j)[p] *
                                                                thermal_[static_cast<std::size_t>(group.candidates[j])];
+    const linear_algebra::FloatingPointTraps traps;
     for (std::size_t j = 0; j < group.candidates.size(); ++j) {
       if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
           group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
@@ -206,6 +208,7 @@ public:
 
   /// Subtracts those of the region across the interface.
   void add_other(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
+    const linear_algebra::FloatingPointTraps traps;
     const auto &rows = rows_[particle];
     const auto &material = problem_.regions[rows.other_region].material;
     for (std::size_t j = 0; j < group.candidates.size(); ++j) {

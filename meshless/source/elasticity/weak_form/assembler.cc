@@ -3,6 +3,7 @@
 #include "../equations.h"
 #include "subdomain_radius.h"
 
+#include "meshless/linear_algebra/floating_point_traps.h"
 #include "meshless/linear_algebra/stopwatch.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace meshless::elasticity::weak_form {
 
 namespace {
 
+using linear_algebra::FloatingPointTraps;
 using linear_algebra::load;
 using linear_algebra::n_lanes;
 using linear_algebra::Pack;
@@ -139,7 +141,10 @@ void Assembler::evaluate_basis(std::span<const double> x, std::span<const double
                                basis::Wanted wanted) {
   Stopwatch watch;
   batch_.assign(std::array<std::span<const double>, 2>{x, y});
-  const auto regularity = basis_.evaluate(batch_, block.batch, wanted, values_, workspace_);
+  const auto regularity = [&] { // judged outside: it is NaN where the moment matrix is singular
+    const FloatingPointTraps traps;
+    return basis_.evaluate(batch_, block.batch, wanted, values_, workspace_);
+  }();
   basis::require_regular(regularity, batch_, basis_);
   seconds.basis += watch.lap();
 }
@@ -188,6 +193,7 @@ void Assembler::integrate_domain() {
     seconds.assembly += watch.lap();
     evaluate_basis(x.subspan(begin, size), y.subspan(begin, size), own_, wanted_gradient(false));
     watch.lap();
+    const FloatingPointTraps traps;
     for (int a = 0; a < 2; ++a) {
       weighted_[a].assign(batch_.stride(), 0.0); // padding weighs nothing
       for (std::size_t q = 0; q < size; ++q)
@@ -369,6 +375,7 @@ void Assembler::add_to_right_hand_side(const Part &part, const BoundaryCondition
 
 /// factor int u_i W for the components i.
 void Assembler::add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block) {
+  const FloatingPointTraps traps;
   for (std::size_t j = 0; j < block.candidates.size(); ++j) {
     double value = 0;
     for (std::size_t q = 0; q < part.end - part.begin; ++q)
@@ -380,11 +387,13 @@ void Assembler::add_penalty(const Part &part, double factor, const std::array<bo
   }
 }
 
-/// - int sigma_ij n_j W for the components i.
+/// - int sigma_ij n_j W for the components i. What callers of the library give (the thermal strain) may be infinite and
+/// stays outside of the traps.
 void Assembler::add_flux(const Part &part, const Material &d, const std::array<bool, 2> &components, Block &block) {
   const std::size_t size = part.end - part.begin;
   if (problem_.thermal_strain)
     add_thermal_flux(part, d, components);
+  const FloatingPointTraps traps;
   for (std::size_t j = 0; j < block.candidates.size(); ++j) {
     // s_kl = int W phi_j,k n_l
     double s11 = 0, s12 = 0, s21 = 0, s22 = 0;
@@ -459,6 +468,7 @@ void Assembler::integrate_mass() {
     const std::size_t size = std::min(batch_size, x.size() - begin);
     evaluate_test_function(x.subspan(begin, size), y.subspan(begin, size), false);
     evaluate_basis(x.subspan(begin, size), y.subspan(begin, size), own_, {.value = true});
+    const FloatingPointTraps traps;
     for (std::size_t j = 0; j < mass_.size(); ++j)
       for (std::size_t q = 0; q < size; ++q)
         mass_[j] += density * quadrature_.JxW[begin + q] * test_[q] * values_.value(j)[q];

@@ -1,5 +1,7 @@
 #include "consistent_subdomain.h"
 
+#include "meshless/linear_algebra/floating_point_traps.h"
+
 #include <fmt/format.h>
 
 #include <optional>
@@ -17,6 +19,7 @@ constexpr int largest_refinement = 3;
 void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre, double radius,
                             std::span<const double> x, std::span<const double> y, std::vector<double> &test,
                             std::array<std::vector<double>, 2> *gradient) {
+  const linear_algebra::FloatingPointTraps traps;
   const std::size_t n = x.size();
   test.resize(n);
   if (gradient != nullptr)
@@ -42,6 +45,7 @@ void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre,
 
 void UnitDiscTest::stretch(double radius, std::vector<double> &to_test,
                            std::array<std::vector<double>, 2> &to_gradient) const {
+  const linear_algebra::FloatingPointTraps traps;
   to_test.assign(test.begin(), test.end());
   const double inverse = 1 / radius;
   for (std::size_t k = 0; k < 2; ++k) {
