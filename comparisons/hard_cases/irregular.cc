@@ -68,7 +68,7 @@ std::vector<HardCase> irregular_cases() {
                        "worst error of u",
                        "the polynomial, Batra & Zhang 2008 (4.2)", .05,
                        "5 %: about ten times the error of the weak forms on the uniform grid", all_solvers(),
-                       n_seeds == 3 && percent != 10 && percent != 40, [=](const std::string &m) {
+                       n_seeds == 3, [=](const std::string &m) {
                          return worst_of(percent == 0 ? 1 : n_seeds, [&](std::uint64_t seed) {
                            return measure(m, cantilever(percent / 100., seed), field);
                          });
@@ -80,22 +80,19 @@ std::vector<HardCase> irregular_cases() {
                             return u;
                           },
                           {}};
-  const auto add_hole = [&](int order, int percent, int n_seeds) {
-    cases.push_back({"jitter", fmt::format("plate with a hole {} %, order {}, {} seeds", percent, order, n_seeds),
-                     "Kirsch's plate, 188 particles moved by up to this part of the spacing; the worst error of u",
-                     "Kirsch's solution, Zhang & Batra 2008 (6.18)", order == 2 ? .05 : .01,
-                     "ten times the error of weak1 on the cloud as it is", weak_solvers(), n_seeds == 5,
-                     [=](const std::string &m) {
-                       return worst_of(percent == 0 ? 1 : n_seeds, [&](std::uint64_t seed) {
-                         return measure(m, plate_with_hole(percent / 100., seed, kirsch, material), around_hole,
-                                        {{"order", std::int64_t{order}}});
-                       });
-                     }});
-  };
-  add_hole(2, 30, 5);
   for (const int order : {2, 3})
     for (const int percent : {0, 10, 20, 30})
-      add_hole(order, percent, 20);
+      cases.push_back({"jitter", fmt::format("plate with a hole {} %, order {}", percent, order),
+                       "Kirsch's plate, 188 particles moved by up to this part of the spacing, twenty seeds; the worst "
+                       "error of u",
+                       "Kirsch's solution, Zhang & Batra 2008 (6.18)", order == 2 ? .05 : .01,
+                       "ten times the error of weak1 on the cloud as it is", weak_solvers(),
+                       percent == 30 && order == 2, [=](const std::string &m) {
+                         return worst_of(percent == 0 ? 1 : 20, [&](std::uint64_t seed) {
+                           return measure(m, plate_with_hole(percent / 100., seed, kirsch, material), around_hole,
+                                          {{"order", std::int64_t{order}}});
+                         });
+                       }});
   cases.push_back({"jitter", "order 1, cantilever 25 %", "the same with a basis of order 1", "the polynomial", .05,
                    "5 %; theory: an order 1 on irregular particles hardly converges", weak_solvers(), true,
                    [=](const std::string &m) {
