@@ -192,6 +192,14 @@ std::string status_text(const Cell &cell) {
   return status + " (UNEXPECTED)";
 }
 
+std::string linear_solver_text(const Cell &cell) {
+  std::vector<std::string> names;
+  for (const char *part : {"method", "ordering", "preconditioner"})
+    if (const auto found = cell.linear_solver.find(part); found != cell.linear_solver.end())
+      names.push_back(found->second);
+  return names.empty() ? no_number : fmt::format("{}", fmt::join(names, ", "));
+}
+
 void append_comparison(Document &document, const std::vector<Group> &groups) {
   document.push_back(Heading{2, "Comparison"});
   if (groups.empty())
@@ -211,6 +219,7 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
     for (const char *phase : phases)
       columns.push_back({std::string_view(phase) == "neighbours" ? "neigh-\nbours" : phase});
     columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}});
+    columns.push_back({"linear solver", Align::left, true});
     Table table(columns);
     for (const Cell *cell : group.cells) {
       if (cell->status != Status::ok || cell->seconds.empty())
@@ -224,6 +233,7 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
       row.push_back(timed ? seconds(total->second.maximum) : no_number);
       row.push_back(percent(relative_spread(*cell)));
       row.push_back(fmt::format("{}", cell->repeats));
+      row.push_back(linear_solver_text(*cell));
       table.add_row(std::move(row));
     }
     if (table.rows().empty())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshless/elasticity/equations_of_motion.h"
+#include "meshless/elasticity/linear_system.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/plane_problem.h"
 #include "meshless/elasticity/row_sample.h"
@@ -54,7 +55,7 @@ struct Parameters {
   double penalty = 1e5;
   /// L in alpha = penalty E0 / L, m.
   double characteristic_length = 1;
-  linear_algebra::SystemSolver solver = linear_algebra::SystemSolver::automatic;
+  linear_algebra::SolverRequest solver;
 };
 
 /// alpha of a material, Pa/m: on prescribed displacement the body is held by the traction sigma n - alpha (u - ubar).
@@ -78,6 +79,16 @@ double penalty_factor(const Parameters &parameters, const Material &material);
 ///   point; linear_algebra::SolveError; std::invalid_argument for an ill-posed problem
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters);
+
+/// The system that `solve` solves.
+/// @throws as solve
+LinearSystem linear_system(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                           const basis::ShapeFunctions<2> &basis, const Parameters &parameters);
+
+/// The field of coefficients found elsewhere from this system.
+ParticleSolution solution_of(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
+                             std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters,
+                             std::vector<double> coefficients);
 
 /// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.
 /// @throws as solve
