@@ -34,7 +34,7 @@ std::vector<scene::Declaration> solver_keys() {
            .choices = {"automatic", "umfpack", "bicgstab", "gmres"},
            .default_value = "automatic",
            .meaning = "linear solver: sparse LU, or an iteration, after which sparse LU if it does not converge; "
-                      "automatic: bicgstab from 1000 unknowns up, else umfpack"},
+                      "automatic: bicgstab from 200 unknowns up, else umfpack"},
           ordering_key("order of elimination; if absent rcm for an iteration, for sparse LU amd, metis from 40000 "
                        "unknowns up"),
           {.name = "preconditioner",
