@@ -192,14 +192,6 @@ std::string status_text(const Cell &cell) {
   return status + " (UNEXPECTED)";
 }
 
-std::string linear_solver_text(const Cell &cell) {
-  std::vector<std::string> names;
-  for (const char *part : {"method", "ordering", "preconditioner"})
-    if (const auto found = cell.linear_solver.find(part); found != cell.linear_solver.end())
-      names.push_back(found->second);
-  return names.empty() ? no_number : fmt::format("{}", fmt::join(names, ", "));
-}
-
 void append_comparison(Document &document, const std::vector<Group> &groups) {
   document.push_back(Heading{2, "Comparison"});
   if (groups.empty())
@@ -213,19 +205,20 @@ void append_comparison(Document &document, const std::vector<Group> &groups) {
 }
 
 void append_phases(Document &document, const std::vector<Group> &groups) {
-  document.push_back(Heading{2, "Seconds by phase"});
+  bool has_heading = false;
+  std::vector<const char *> shown(phases.begin(), phases.end());
+  std::erase_if(shown, [](std::string_view phase) { return phase == "setup"; }); // in the linear solvers' own tables
   for (const Group &group : groups) {
     std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
-    for (const char *phase : phases)
+    for (const char *phase : shown)
       columns.push_back({std::string_view(phase) == "neighbours" ? "neigh-\nbours" : phase});
     columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}});
-    columns.push_back({"linear solver", Align::left, true});
     Table table(columns);
     for (const Cell *cell : group.cells) {
       if (cell->status != Status::ok || cell->seconds.empty())
         continue;
       std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number};
-      for (const char *phase : phases)
+      for (const char *phase : shown)
         row.push_back(seconds(median_seconds(*cell, phase)));
       const auto total = cell->seconds.find("total");
       const bool timed = total != cell->seconds.end();
@@ -233,12 +226,14 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
       row.push_back(timed ? seconds(total->second.maximum) : no_number);
       row.push_back(percent(relative_spread(*cell)));
       row.push_back(fmt::format("{}", cell->repeats));
-      row.push_back(linear_solver_text(*cell));
       table.add_row(std::move(row));
     }
     if (table.rows().empty())
       continue;
     table.drop_columns_without(no_number);
+    if (!has_heading)
+      document.push_back(Heading{2, "Seconds by phase"});
+    has_heading = true;
     document.push_back(Heading{3, group.title()});
     document.push_back(std::move(table));
     if (const std::string wide = wide_spreads(group); !wide.empty())

@@ -5,9 +5,6 @@
 
 namespace comparisons::reports {
 
-/// "bicgstab, rcm, thinned+coarse": method, ordering and preconditioner of the linear solver; no_number without one.
-std::string linear_solver_text(const Cell &cell);
-
 /// Errors, total seconds and memory, one table a group, the reasons of cells that are not ok below it.
 void append_comparison(Document &document, const std::vector<Group> &groups);
 /// Seconds by phase, with the spread of the repeats; one above 10 % is named.

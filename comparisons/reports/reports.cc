@@ -102,6 +102,7 @@ Document report_document(const Results &results) {
   append_solvers(document, results);
   append_facts(document, groups);
   append_phases(document, groups);
+  append_used_solvers(document, groups);
   append_growth(document, groups);
   append_clouds(document, groups);
   append_further_quantities(document, groups);

@@ -4,8 +4,10 @@
 #include "comparisons/reports/numbers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,15 @@ std::string title_of(const Cell &cell) {
 std::string name_of(const Cell &cell, const char *part) {
   const auto found = cell.linear_solver.find(part);
   return found != cell.linear_solver.end() ? found->second : no_number;
+}
+
+/// "bicgstab, rcm, thinned+coarse"
+std::string linear_solver_text(const Cell &cell) {
+  std::vector<std::string> names;
+  for (const char *part : {"method", "ordering", "preconditioner"})
+    if (cell.linear_solver.contains(part))
+      names.push_back(name_of(cell, part));
+  return names.empty() ? cell.label : fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string wanted_of(const Cell &cell) {
@@ -130,9 +141,13 @@ Bullets findings_of(const System &system) {
   for (const Cell *cell : system) {
     if (cell->status != Status::ok)
       bullets.items.push_back(fmt::format("{}: {}: {}", linear_solver_text(*cell), status_text(*cell), cell->reason));
-    for (const std::string &warning : cell->warnings)
-      bullets.items.push_back(fmt::format("{}: {}", linear_solver_text(*cell), warning));
   }
+  std::map<std::string, std::vector<std::string>> warned; // who shares a warning
+  for (const Cell *cell : system)
+    for (const std::string &warning : cell->warnings)
+      warned[warning].push_back(linear_solver_text(*cell));
+  for (const auto &[warning, names] : warned)
+    bullets.items.push_back(fmt::format("{}: {}", fmt::join(names, "; "), warning));
   return bullets;
 }
 
@@ -159,6 +174,40 @@ bool has_solver_cases(const Results &results) {
 }
 
 void append_solvers(Document &document, const Results &results) { append(document, systems_of(results, false)); }
+
+void append_used_solvers(Document &document, const std::vector<Group> &groups) {
+  bool has_heading = false;
+  for (const Group &group : groups) {
+    Table table({{"method", Align::left, true},
+                 {"level", Align::left},
+                 {"linear\nsolver", Align::left},
+                 {"ordering", Align::left},
+                 {"preconditioner", Align::left},
+                 {"iter-\nations"},
+                 {"backward\nerror"},
+                 {"algebraic\nerror"}});
+    for (const Cell *cell : group.cells)
+      if (cell->status == Status::ok && !cell->linear_solver.empty())
+        table.add_row({cell->label, group.common_level().empty() ? cell->level : no_number, name_of(*cell, "method"),
+                       name_of(*cell, "ordering"), name_of(*cell, "preconditioner"),
+                       count_or_none(reportable(*cell, "solver_iterations")),
+                       significant(reportable(*cell, "backward_error")),
+                       significant(reportable(*cell, "algebraic_error"))});
+    if (table.rows().empty())
+      continue;
+    table.drop_columns_without(no_number);
+    if (!has_heading) {
+      document.push_back(Heading{2, "Linear solvers used"});
+      document.push_back(
+          Paragraph{"The algebraic error is the solver's own estimate for the unknowns, relative, from what the last "
+                    "tightening has "
+                    "changed. A cell is warned of where it is more than a hundredth of the displacement's error."});
+    }
+    has_heading = true;
+    document.push_back(Heading{3, group.title()});
+    document.push_back(std::move(table));
+  }
+}
 
 void append_solvers_in_brief(Document &document, const Results &results) {
   append(document, systems_of(results, true));
