@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,8 +36,20 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::P
 
 } // namespace
 
-double penalty_factor(const Parameters &parameters, const Material &material) {
-  return parameters.penalty * material.plane_modulus() / parameters.characteristic_length;
+double penalty_factor(const Parameters &parameters, const Material &material, double smoothing_length) {
+  const double length =
+      parameters.penalty_length == PenaltyLength::domain ? parameters.characteristic_length : smoothing_length;
+  return parameters.penalty * material.plane_modulus() / length;
+}
+
+double nearest_smoothing_length(const cloud::Particles<2> &particles, std::span<const cloud::Index> candidates,
+                                const Point2 &x) {
+  const auto distance = [&](cloud::Index j) {
+    return cloud::distance_squared<2>(particles.position(static_cast<std::size_t>(j)), x);
+  };
+  const auto nearest = std::min_element(candidates.begin(), candidates.end(),
+                                        [&](cloud::Index a, cloud::Index b) { return distance(a) < distance(b); });
+  return particles.smoothing_length(static_cast<std::size_t>(*nearest));
 }
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
