@@ -123,6 +123,49 @@ void all_derivatives_at(benchmark::State &state, const kernels::Kernel &kernel) 
   state.counters["neighbours"] = static_cast<double>(workspace.active.size());
 }
 
+/// The same for points as sparse as the particles, each with neighbours of its own that are known, a pack of eight at a
+/// time along the curve of GroupedEvaluation.
+template <int dim>
+void all_derivatives_own(benchmark::State &state, const kernels::Kernel &kernel) {
+  const double radius = dim == 2 ? std::sqrt(30 / std::numbers::pi) : std::cbrt(45 / std::numbers::pi);
+  const auto particles = unit_spacing<dim>(radius / kernels::support_of(kernel));
+  const auto basis = basis::make_ssph<dim>(2, kernel);
+  const cloud::CandidateSearch<dim> search(particles, basis->support());
+  cloud::Point<dim> low;
+  cloud::Point<dim> high;
+  low.fill(3);
+  high.fill((dim == 3 ? 14 : 30) - 3);
+  auto points = sample_clouds::random_points<dim>(dim == 3 ? 512 : 576, low, high, 3);
+  std::vector<cloud::Point<dim>> sorted;
+  basis::GroupedEvaluation<dim>(*basis, search).visit(points, {.value = true}, [&](const auto &group) {
+    for (const std::size_t i : group.points)
+      sorted.push_back(points[i]);
+  });
+  std::vector<std::vector<cloud::Index>> lists(sorted.size());
+  double n_neighbours = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    search.collect(sorted[i], 0, lists[i]);
+    n_neighbours += static_cast<double>(lists[i].size());
+  }
+  std::vector<std::span<const cloud::Index>> rows(lists.begin(), lists.end());
+  basis::NeighbourPack<dim> pack;
+  basis::ShapeFunctionValues<dim> values;
+  typename basis::ShapeFunctions<dim>::Workspace workspace;
+  constexpr std::size_t n_lanes = linear_algebra::n_lanes;
+  double n_slots = 0;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < sorted.size(); i += n_lanes) {
+      pack.assign(particles, std::span(sorted).subspan(i, n_lanes), std::span(rows).subspan(i, n_lanes));
+      benchmark::DoNotOptimize(
+          basis->evaluate_own(pack, {.value = true, .gradient = true, .hessian = true}, values, workspace));
+      n_slots += static_cast<double>(pack.n_slots());
+    }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(sorted.size()));
+  const auto n = static_cast<double>(sorted.size());
+  state.counters["neighbours"] = n_neighbours / n;
+  state.counters["slots"] = n_slots * n_lanes / (n * static_cast<double>(state.iterations()));
+}
+
 constexpr basis::Wanted value{.value = true};
 constexpr basis::Wanted weak1{.gradient = true};
 constexpr basis::Wanted weak2{.differentiated_gradient = true};
@@ -142,6 +185,12 @@ constexpr auto *all_2d = &all_derivatives<2>;
 constexpr auto *all_3d = &all_derivatives<3>;
 constexpr auto *all_at_2d = &all_derivatives_at<2>;
 constexpr auto *all_at_3d = &all_derivatives_at<3>;
+constexpr auto *all_own_2d = &all_derivatives_own<2>;
+constexpr auto *all_own_3d = &all_derivatives_own<3>;
+BENCHMARK_CAPTURE(all_own_2d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_own_2d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(all_own_3d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_own_3d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_at_2d, polynomial, kernels::Quartic());
 BENCHMARK_CAPTURE(all_at_2d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_at_3d, polynomial, kernels::Quartic());

@@ -15,8 +15,7 @@ constexpr double largest_ratio = 2;
 template <int dim>
 CandidateSearch<dim>::CandidateSearch(const Particles<dim> &particles, double support)
     : particles_(&particles), support_(support) {
-  const auto h = particles.smoothing_lengths();
-  if (particles.largest_smoothing_length() <= largest_ratio * *std::min_element(h.begin(), h.end()))
+  if (particles.largest_smoothing_length() <= largest_ratio * particles.smallest_smoothing_length())
     cells_.emplace(particles.positions(), support * particles.largest_smoothing_length() / 2);
   else
     tree_.emplace(particles.positions());
