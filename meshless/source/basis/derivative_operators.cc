@@ -103,9 +103,9 @@ DerivativeOperators<dim> make_derivative_operators(const ShapeFunctions<dim> &ba
               if (group.values.has(quantity))
                 for (std::size_t p = 0; p < group.points.size(); ++p) {
                   Row &row = rows[static_cast<std::size_t>(quantity)][group.points[p]];
-                  for (std::size_t j = 0; j < group.n_candidates(p); ++j)
+                  for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
                     if (const double value = group.values.row(quantity, j)[p]; value != 0) {
-                      row.columns.push_back(group.candidate(j, p));
+                      row.columns.push_back(group.neighbour(j, p));
                       row.values.push_back(value);
                     }
                 }

@@ -147,7 +147,7 @@ struct NeighbourSums {
   using Vector = std::array<Pack, n>;
   using Moments = std::array<Pack, n_moments>;
   /// Rows that are written at a time: their coefficients stay in registers.
-  static constexpr std::size_t rows_at_a_time = n >= 8 || linear_algebra::n_lanes < 8 ? 1 : 24 / n;
+  static constexpr std::size_t rows_at_a_time = linear_algebra::n_lanes < 8 || n > 12 ? 1 : 24 / n;
 
   Neighbours neighbours;
 

@@ -1,6 +1,9 @@
 #include "meshless/cloud/candidate_search.h"
 
+#include "meshless/cloud/radix_sort.h"
+
 #include <algorithm>
+#include <cstdint>
 
 namespace meshless::cloud {
 
@@ -35,7 +38,13 @@ void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std:
       const double own = support_ * particles_->smoothing_length(particle) + radius;
       return distance_squared<dim>(particles_->position(particle), centre) >= own * own;
     });
-  std::sort(result.begin(), result.end());
+  if (std::is_sorted(result.begin(), result.end()))
+    return;
+  const std::size_t n = result.size();
+  result.resize(2 * n);
+  radix_sort(std::span(result).first(n), std::span(result).last(n),
+             [](Index j) { return static_cast<std::uint64_t>(j); });
+  result.resize(n);
 }
 
 template class CandidateSearch<1>;

@@ -44,20 +44,19 @@ void NeighbourCollector<dim>::find_candidates(std::span<const Point<dim>> points
 }
 
 template <int dim>
-void NeighbourCollector<dim>::collect(std::span<const Point<dim>> points) {
-  offsets_.assign(1, 0);
+void NeighbourCollector<dim>::append(std::span<const Point<dim>> points) {
   if (points.empty())
     return;
   find_candidates(points);
   const std::size_t n_candidates = candidates_.size();
-  if (indices_.size() < points.size() * n_candidates)
-    indices_.resize(points.size() * n_candidates);
+  if (const std::size_t most = offsets_.back() + points.size() * n_candidates; indices_.size() < most)
+    indices_.resize(most);
   std::array<const double *, dim> coordinates;
   for (int k = 0; k < dim; ++k)
     coordinates[k] = coordinates_[k].data();
   const double *reach_squared = reach_squared_.data();
   const Index *candidates = candidates_.data();
-  Index *found = indices_.data();
+  Index *found = indices_.data() + offsets_.back();
   for (const auto &x : points) {
     for (std::size_t c = 0; c < n_candidates; c += n_lanes) {
       Pack squared = 0;

@@ -33,8 +33,6 @@ public:
   std::span<const cloud::Index> list(std::size_t i) const { return lists_[i]; }
   /// Length of the longest list.
   std::size_t n_slots() const { return n_slots_; }
-  /// Particles of the slots, lane fastest.
-  const cloud::Index *slots() const { return slots_.data(); }
 
   /// (xi_J - x)_k / scale of the lanes of slot a from a * n_lanes on.
   const double *offset(int k) const { return offsets_[k].data(); }
@@ -60,7 +58,7 @@ private:
   std::array<std::span<const cloud::Index>, n_lanes> lists_{};
   std::array<double, n_lanes> counts_{};
   std::array<double, n_lanes> scale_{};
-  std::vector<cloud::Index> slots_;
+  std::vector<cloud::Index> slots_; ///< particles, lane fastest
   std::array<std::vector<double>, dim> offsets_;
   std::vector<double> inverse_h_;
 };

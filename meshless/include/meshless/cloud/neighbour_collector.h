@@ -9,18 +9,19 @@
 
 namespace meshless::cloud {
 
-/// Finds the neighbours of each of some points that are near each other: the particles whose support holds the point.
-/// One search finds the candidates of all points, from which each takes its own. Of one thread; its memory stays.
+/// Neighbours of points, each its own: the particles whose support holds the point. One search finds the candidates of
+/// points near each other, from which each takes its own. Of one thread; its memory stays.
 template <int dim>
 class NeighbourCollector {
 public:
   /// @param search kept by reference
   explicit NeighbourCollector(const CandidateSearch<dim> &search) : search_(&search) {}
 
-  /// Replaces the lists by those of the points.
-  void collect(std::span<const Point<dim>> points);
+  void clear() { offsets_.assign(1, 0); }
+  /// Appends the lists of some points near each other.
+  void append(std::span<const Point<dim>> points);
 
-  /// Neighbours of point i: |x_j - x_i| < support h_j, in increasing order.
+  /// Neighbours of point i since the last `clear`: |x_j - x_i| < support h_j, in increasing order.
   std::span<const Index> operator[](std::size_t i) const {
     return {indices_.data() + offsets_[i], offsets_[i + 1] - offsets_[i]};
   }
@@ -33,8 +34,8 @@ private:
   /// Of the candidates, padded to whole packs with such as have no neighbour.
   std::array<std::vector<double>, dim> coordinates_;
   std::vector<double> reach_squared_;
-  std::vector<std::size_t> offsets_;
-  std::vector<Index> indices_;
+  std::vector<std::size_t> offsets_{0};
+  std::vector<Index> indices_; ///< and room behind those in use
 };
 
 } // namespace meshless::cloud
