@@ -3,7 +3,6 @@
 #include "meshless/cloud/radix_sort.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace meshless::cloud {
 
@@ -38,13 +37,7 @@ void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std:
       const double own = support_ * particles_->smoothing_length(particle) + radius;
       return distance_squared<dim>(particles_->position(particle), centre) >= own * own;
     });
-  if (std::is_sorted(result.begin(), result.end()))
-    return;
-  const std::size_t n = result.size();
-  result.resize(2 * n);
-  radix_sort(std::span(result).first(n), std::span(result).last(n),
-             [](Index j) { return static_cast<std::uint64_t>(j); });
-  result.resize(n);
+  sort_indices(result, result.size());
 }
 
 template class CandidateSearch<1>;

@@ -1,5 +1,6 @@
 #include "meshless/cloud/cell_list.h"
 
+#include "meshless/cloud/radix_sort.h"
 #include "meshless/linear_algebra/pack.h"
 
 #include <algorithm>
@@ -158,10 +159,10 @@ NeighbourLists CellList<dim>::all_within(double radius) const {
   std::vector<Index> indices;
   std::vector<Index> row;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
-    const auto found = row.begin() + static_cast<std::ptrdiff_t>(find_within(positions_[i], radius, 0, row));
+    const std::size_t n = find_within(positions_[i], radius, 0, row);
     if (!in_order_) // else runs and what they hold come in order
-      std::sort(row.begin(), found);
-    indices.insert(indices.end(), row.begin(), found);
+      sort_indices(row, n);
+    indices.insert(indices.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
     offsets.push_back(indices.size());
     if (i + 1 == n_sampled)
       indices.reserve(indices.size() * (positions_.size() + positions_.size() / 10) / n_sampled);

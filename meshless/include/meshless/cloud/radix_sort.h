@@ -1,5 +1,7 @@
 #pragma once
 
+#include "meshless/cloud/neighbour_lists.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace meshless::cloud {
 
@@ -44,6 +47,16 @@ void radix_sort(std::span<T> items, std::span<T> scratch, const NumberOf &number
   }
   if (n_passes % 2 == 1)
     std::copy(items.begin(), items.end(), scratch.begin());
+}
+
+/// Sorts the first n indices; the vector keeps its size, what stands behind them does not stay.
+inline void sort_indices(std::vector<Index> &indices, std::size_t n) {
+  const std::size_t size = indices.size();
+  if (size < 2 * n)
+    indices.resize(2 * n);
+  const std::span all(indices);
+  radix_sort(all.first(n), all.subspan(n, n), [](Index i) { return static_cast<std::uint64_t>(i); });
+  indices.resize(size);
 }
 
 } // namespace meshless::cloud
