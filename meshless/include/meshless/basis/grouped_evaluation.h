@@ -18,7 +18,7 @@ public:
   virtual ~CandidateFilter() = default;
 
   /// False if no candidate is to be left out at any point of the ball.
-  /// @param reach distance of the farthest candidate from the centre, m
+  /// @param reach no candidate is farther from the centre, m
   virtual bool active(const cloud::Point<dim> &centre, double radius, double reach) const = 0;
   /// Removes what has no part at the point; keeps the order.
   virtual void apply(const cloud::Point<dim> &point, std::vector<cloud::Index> &candidates) = 0;
@@ -63,8 +63,6 @@ public:
              const char *noun = "point") const;
 
 private:
-  class Visit;
-
   const ShapeFunctions<dim> *basis_;
   const cloud::CandidateSearch<dim> *search_;
   CandidateFilter<dim> *filter_;

@@ -163,6 +163,7 @@ public:
                                                                group.values.gradient(i, j)[p] *
                                                                thermal_[static_cast<std::size_t>(group.neighbour(j, p))];
     const linear_algebra::FloatingPointTraps traps;
+    entries_[particle].reserve(entries_[particle].size() + group.n_neighbours(p));
     for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
       if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
           group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
