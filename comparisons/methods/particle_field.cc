@@ -110,7 +110,7 @@ std::map<std::string, std::vector<double>> ParticleField::own_figures() const {
   std::vector<double> n_neighbours, regularity;
   for (std::size_t i = 0; i < particles.size(); ++i)
     evaluation.visit(particles.positions().subspan(i, 1), {.value = true}, [&](const auto &group) {
-      n_neighbours.push_back(static_cast<double>(group.regularity.n_neighbours));
+      n_neighbours.push_back(static_cast<double>(group.n_neighbours(0)));
       regularity.push_back(group.regularity.smallest_pivot_ratio);
     });
   return {{"smoothing_length", {particles.smoothing_lengths().begin(), particles.smoothing_lengths().end()}},
