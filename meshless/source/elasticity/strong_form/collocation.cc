@@ -159,9 +159,9 @@ public:
     if (!thermal_.empty() && rows.kind == RowKind::interior) // sigma_ij,j has the gradient of the thermal stress
       for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
         for (int i = 0; i < 2; ++i)
-          rows.right_hand_side[static_cast<std::size_t>(i)] += material.thermal_modulus() *
-                                                               group.values.gradient(i, j)[p] *
-                                                               thermal_[static_cast<std::size_t>(group.neighbour(j, p))];
+          rows.right_hand_side[static_cast<std::size_t>(i)] +=
+              material.thermal_modulus() * group.values.gradient(i, j)[p] *
+              thermal_[static_cast<std::size_t>(group.neighbour(j, p))];
     const linear_algebra::FloatingPointTraps traps;
     entries_[particle].reserve(entries_[particle].size() + group.n_neighbours(p));
     for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
