@@ -12,6 +12,7 @@
 #include "comparisons/benchmarks/rod_vibration/problem.h"
 #include "comparisons/benchmarks/shock_tube/problem.h"
 #include "comparisons/benchmarks/smoothing_functions/problem.h"
+#include "comparisons/benchmarks/solvers/problem.h"
 #include "comparisons/study/plane_experiment.h"
 
 namespace comparisons::benchmarks {
@@ -41,6 +42,7 @@ std::vector<study::Benchmark> benchmark_table() {
           bar_wave::benchmark(),
           shock_tube::benchmark(),
           detonation::benchmark(),
+          solvers::benchmark(),
           geometry::benchmark()};
 }
 

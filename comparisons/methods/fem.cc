@@ -49,10 +49,17 @@ namespace {
 
 using scene::Type;
 
+std::map<std::string, std::string> names_of_solver(const reference::Options &options) {
+  if (options.solver == reference::LinearSolver::multigrid && !options.mixed)
+    return {{"method", "cg"}, {"preconditioner", "multigrid"}};
+  const bool cholesky = options.solver == reference::LinearSolver::cholesky && !options.mixed;
+  return {{"method", cholesky ? "cholesky" : "umfpack"}, {"ordering", "amd"}};
+}
+
 class ElementField final : public Solution {
 public:
-  ElementField(reference::PlaneSolution solution, std::size_t n_vertices, double points_seconds, bool thermal,
-               std::vector<std::string> warnings)
+  ElementField(reference::PlaneSolution solution, const reference::Options &options, std::size_t n_vertices,
+               double points_seconds, bool thermal, std::vector<std::string> warnings)
       : solution_(std::move(solution)), thermal_(thermal) {
     const auto &s = solution_.seconds();
     record_.warnings = std::move(warnings);
@@ -65,6 +72,9 @@ public:
                        {"assembly", s.assembly},
                        {"solve", s.solve}};
     record_.quantities = {{"backward_error", solution_.backward_error()}};
+    if (const auto error = solution_.algebraic_error())
+      record_.quantities["algebraic_error"] = *error;
+    record_.linear_solver = names_of_solver(options);
     if (solution_.iterations() > 0)
       record_.quantities["solver_iterations"] = solution_.iterations();
   }
@@ -138,7 +148,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request) {
       warnings.push_back(locking_warning(region.material));
       break;
     }
-  return std::make_unique<ElementField>(reference::solve(problem, options), problem.mesh.vertices.size(),
+  return std::make_unique<ElementField>(reference::solve(problem, options), options, problem.mesh.vertices.size(),
                                         points_seconds, static_cast<bool>(problem.thermal_strain), std::move(warnings));
 }
 

@@ -1,5 +1,7 @@
 #include "comparisons/methods/particle_field.h"
 
+#include "comparisons/methods/solver_keys.h"
+
 #include "meshless/basis/grouped_evaluation.h"
 #include "meshless/elasticity/cloud_quality.h"
 #include "meshless/elasticity/surroundings.h"
@@ -35,7 +37,9 @@ ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared pre
                      {"assembly", s.assembly},
                      {"solve", s.solve}};
   record_.quantities = {{"backward_error", solution_.backward_error},
+                        {"algebraic_error", solution_.algebraic_error},
                         {"reciprocal_condition", solution_.reciprocal_condition}};
+  record_.linear_solver = names_of(solution_.solver);
   if (solution_.iterations > 0)
     record_.quantities["solver_iterations"] = solution_.iterations;
   if (solution_.fell_back)

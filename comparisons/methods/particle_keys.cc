@@ -2,6 +2,7 @@
 
 #include "comparisons/methods/corner_parameter.h"
 #include "comparisons/methods/locking.h"
+#include "comparisons/methods/solver_keys.h"
 
 #include "meshless/basis/basis_table.h"
 
@@ -98,22 +99,6 @@ std::vector<Declaration> basis_declarations(Form form) {
        .default_value = "auto",
        .meaning = "enlarge h, to twice at most, where the basis would be singular or poor; auto: on irregular clouds"},
   };
-}
-
-Declaration solver_key(Form form) {
-  if (form == Form::mixed)
-    return {.name = "solver",
-            .type = Type::choice,
-            .choices = {"umfpack"},
-            .default_value = "umfpack",
-            .meaning = "linear solver: sparse LU"};
-  return {.name = "solver",
-          .type = Type::choice,
-          .choices = {"automatic", "umfpack", "bicgstab"},
-          .default_value = "automatic",
-          .meaning =
-              "linear solver: sparse LU; BiCGSTAB with incomplete factors, or sparse LU if it does not converge; "
-              "automatic: this from 1000 unknowns up"};
 }
 
 Declaration test_function_key(std::vector<std::string> names, const char *meaning) {
@@ -255,7 +240,8 @@ std::vector<Declaration> particle_keys(Form form) {
              : form == Form::mixed ? mixed_declarations()
                                    : weak_declarations();
   keys.insert(keys.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
-  keys.push_back(solver_key(form));
+  auto solver = form == Form::mixed ? mixed_solver_keys() : solver_keys();
+  keys.insert(keys.end(), std::make_move_iterator(solver.begin()), std::make_move_iterator(solver.end()));
   return keys;
 }
 
@@ -268,6 +254,7 @@ void check_particle_keys(Form form, const scene::CheckContext &context, scene::D
     check_pressure_support(context, diagnostics);
   if (form == Form::strong)
     check_corner(context, diagnostics);
+  check_solver_keys(context, diagnostics);
 }
 
 /// Orders 3 and 4 need a wider weight where particles are irregular: on graded clouds of 686 with a hole, 1.3 instead

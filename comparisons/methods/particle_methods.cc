@@ -4,6 +4,7 @@
 #include "comparisons/methods/locking.h"
 #include "comparisons/methods/particle_field.h"
 #include "comparisons/methods/particle_points.h"
+#include "comparisons/methods/solver_keys.h"
 
 #include "meshless/basis/basis_table.h"
 #include "meshless/elasticity/mixed_form/displacement_pressure.h"
@@ -20,16 +21,6 @@ namespace elasticity = meshless::elasticity;
 elasticity::weak_form::Subdomains subdomains_of(const SolveRequest &request, const Prepared &p) {
   return shrinks_subdomains(request.parameters, p.regular) ? elasticity::weak_form::Subdomains::shrunk
                                                            : elasticity::weak_form::Subdomains::whole;
-}
-
-meshless::linear_algebra::SystemSolver solver_of(const SolveRequest &request) {
-  using meshless::linear_algebra::SystemSolver;
-  if (!request.parameters.has("solver")) // not a key of every benchmark
-    return SystemSolver::automatic;
-  const auto &name = request.parameters.text("solver");
-  return name == "umfpack"    ? SystemSolver::direct
-         : name == "bicgstab" ? SystemSolver::iterative
-                              : SystemSolver::automatic;
 }
 
 elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, Form form, const Prepared &p) {
@@ -52,7 +43,7 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
     weak.penalty_length = elasticity::weak_form::PenaltyLength::smoothing;
   }
   weak.characteristic_length = request.statement.characteristic_length;
-  weak.solver = solver_of(request);
+  weak.solver = solver_request(request.parameters);
   return weak;
 }
 
@@ -62,6 +53,7 @@ elasticity::mixed_form::Parameters mixed_parameters(const SolveRequest &request,
   mixed.test_function = *test_function_of(request.parameters, p.test_radius);
   mixed.subdomains = subdomains_of(request, p);
   mixed.stabilisation = request.parameters.real("stabilisation");
+  mixed.ordering = solver_request(request.parameters).ordering;
   return mixed;
 }
 
@@ -95,7 +87,8 @@ std::vector<std::string> forewarnings(const SolveRequest &request, Form form, bo
 elasticity::ParticleSolution solve_form(const SolveRequest &request, Form form, const Prepared &p) {
   switch (form) {
   case Form::strong:
-    return elasticity::strong_form::solve(p.problem, p.particles, p.basis, corner_rules(request), solver_of(request));
+    return elasticity::strong_form::solve(p.problem, p.particles, p.basis, corner_rules(request),
+                                          solver_request(request.parameters));
   case Form::mixed:
     return elasticity::mixed_form::solve(p.problem, p.particles, p.basis, pressure_basis(request, p),
                                          mixed_parameters(request, p));
@@ -172,6 +165,21 @@ Method weak2() { return make("weak2", "MLPG, differentiated shape functions (3.2
 Method mixed() {
   return make("mixed", "MLPG for displacement and pressure, stabilised (PSPG): does not lock as nu -> 1/2",
               Form::mixed);
+}
+
+std::unique_ptr<WeakSystem> weak_system(const SolveRequest &request, const std::string &method) {
+  const Form form = form_of(method);
+  auto p = prepare(request, form);
+  const auto parameters = weak_parameters(request, form, p);
+  auto system = elasticity::weak_form::linear_system(p.problem, *p.particles, *p.basis, parameters);
+  return std::make_unique<WeakSystem>(std::move(p), parameters, std::move(system));
+}
+
+std::unique_ptr<Solution> WeakSystem::solution(std::vector<double> coefficients) const {
+  return std::make_unique<ParticleField>(elasticity::weak_form::solution_of(prepared_.problem, prepared_.particles,
+                                                                            prepared_.basis, parameters_,
+                                                                            std::move(coefficients)),
+                                         prepared_, std::vector<std::string>{});
 }
 
 meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method) {

@@ -1,10 +1,16 @@
 #pragma once
 
 #include "comparisons/methods/method_table.h"
+#include "comparisons/methods/particle_points.h"
 
 #include "meshless/elasticity/equations_of_motion.h"
+#include "meshless/elasticity/linear_system.h"
+#include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 
+#include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace comparisons::methods {
 
@@ -24,5 +30,27 @@ Method mixed();
 /// The equations of motion of one of these methods, by its name, with the densities of the statement's materials.
 /// @throws Refused if a moment matrix is singular, or what the method throws
 meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method);
+
+/// The linear system of a weak form, to be solved elsewhere.
+class WeakSystem {
+public:
+  WeakSystem(Prepared prepared, meshless::elasticity::weak_form::Parameters parameters,
+             meshless::elasticity::LinearSystem equations)
+      : prepared_(std::move(prepared)), parameters_(std::move(parameters)), equations_(std::move(equations)) {}
+
+  const meshless::elasticity::LinearSystem &equations() const { return equations_; }
+  std::span<const problems::Point2> positions() const { return prepared_.particles->positions(); }
+  /// The field of coefficients, as if the method had found them.
+  std::unique_ptr<Solution> solution(std::vector<double> coefficients) const;
+
+private:
+  Prepared prepared_;
+  meshless::elasticity::weak_form::Parameters parameters_;
+  meshless::elasticity::LinearSystem equations_;
+};
+
+/// @param method weak1, weak2 or hybrid
+/// @throws as the method does
+std::unique_ptr<WeakSystem> weak_system(const SolveRequest &request, const std::string &method);
 
 } // namespace comparisons::methods

@@ -21,8 +21,11 @@ struct SolveRecord {
   std::int64_t nonzeros = 0;
   /// Phases points, neighbours, basis, assembly, solve, in seconds.
   std::map<std::string, double> seconds;
-  /// Figures such as backward_error and reciprocal_condition.
+  /// Figures such as backward_error and reciprocal_condition; algebraic_error: an estimate of the error of the solved
+  /// system, relative, by tightening.
   std::map<std::string, double> quantities;
+  /// "method", "ordering", "preconditioner" of the linear solver, as far as it has them.
+  std::map<std::string, std::string> linear_solver;
   std::vector<std::string> warnings;
 };
 

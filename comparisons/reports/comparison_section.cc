@@ -205,10 +205,12 @@ void append_comparison(Document &document, const std::vector<Group> &groups) {
 }
 
 void append_phases(Document &document, const std::vector<Group> &groups) {
-  document.push_back(Heading{2, "Seconds by phase"});
+  bool has_heading = false;
+  std::vector<const char *> shown(phases.begin(), phases.end());
+  std::erase_if(shown, [](std::string_view phase) { return phase == "setup"; }); // in the linear solvers' own tables
   for (const Group &group : groups) {
     std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
-    for (const char *phase : phases)
+    for (const char *phase : shown)
       columns.push_back({std::string_view(phase) == "neighbours" ? "neigh-\nbours" : phase});
     columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}});
     Table table(columns);
@@ -216,7 +218,7 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
       if (cell->status != Status::ok || cell->seconds.empty())
         continue;
       std::vector<std::string> row{cell->label, group.common_level().empty() ? cell->level : no_number};
-      for (const char *phase : phases)
+      for (const char *phase : shown)
         row.push_back(seconds(median_seconds(*cell, phase)));
       const auto total = cell->seconds.find("total");
       const bool timed = total != cell->seconds.end();
@@ -229,6 +231,9 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
     if (table.rows().empty())
       continue;
     table.drop_columns_without(no_number);
+    if (!has_heading)
+      document.push_back(Heading{2, "Seconds by phase"});
+    has_heading = true;
     document.push_back(Heading{3, group.title()});
     document.push_back(std::move(table));
     if (const std::string wide = wide_spreads(group); !wide.empty())

@@ -1,6 +1,7 @@
 #include "comparisons/reports/groups.h"
 
 #include "comparisons/reports/hard_cases_section.h"
+#include "comparisons/reports/solvers_section.h"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ std::string Group::common_level() const {
 std::vector<Group> group_cells(const Results &results) {
   std::vector<Group> groups;
   for (const Cell &cell : results.cells)
-    if (!is_hard_case(cell))
+    if (!is_hard_case(cell) && !is_solver_case(cell))
       group_of(groups, cell).cells.push_back(&cell);
   std::vector<std::string> benchmarks;
   for (Group &group : groups) {

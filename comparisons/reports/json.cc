@@ -55,6 +55,8 @@ Json cell_json(const Cell &cell) {
   json["warnings"] = cell.warnings;
   json["errors"] = numbers(cell, cell.errors);
   json["quantities"] = numbers(cell, cell.quantities);
+  if (!cell.linear_solver.empty())
+    json["linear_solver"] = cell.linear_solver;
   json["seconds"] = seconds(cell);
   json["series"] = Json::array();
   for (const Series &series : cell.series) {

@@ -187,6 +187,9 @@ Cell read_cell(const Node &node) {
     cell.warnings = node.at("warnings").texts();
   cell.errors = read_numbers(node.at("errors"));
   cell.quantities = read_numbers(node.at("quantities"));
+  if (node.has("linear_solver"))
+    for (const auto &[name, value] : node.at("linear_solver").members())
+      cell.linear_solver[name] = value.text();
   cell.seconds = read_seconds(node.at("seconds"));
   cell.repeats = node.at("seconds").at("repeats").small_count();
   for (const Node &series : node.at("series").items())

@@ -16,6 +16,7 @@
 #include "comparisons/reports/paraview.h"
 #include "comparisons/reports/plot.h"
 #include "comparisons/reports/scene_section.h"
+#include "comparisons/reports/solvers_section.h"
 #include "comparisons/reports/summary.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,8 @@ void append_header(Document &document, const Results &results, const std::vector
       benchmarks.push_back(group.benchmark);
   if (has_hard_cases(results))
     benchmarks.emplace_back("hard_cases");
+  if (has_solver_cases(results))
+    benchmarks.emplace_back("solvers");
   const Program &program = results.program;
   const Machine &machine = results.machine;
   document.push_back(Heading{1, fmt::format("{}: {}", program.name, fmt::join(benchmarks, ", "))});
@@ -89,15 +92,17 @@ Document report_document(const Results &results) {
   Document document;
   append_header(document, results, groups);
   append_reading_aid(document);
-  if (!groups.empty() || !has_hard_cases(results))
+  if (!groups.empty() || !(has_hard_cases(results) || has_solver_cases(results)))
     append_comparison(document, groups);
   append_equal_error(document, results);
   append_pareto(document, groups);
   append_rates(document, groups);
   append_ledger(document, results);
   append_hard_cases(document, results);
+  append_solvers(document, results);
   append_facts(document, groups);
   append_phases(document, groups);
+  append_used_solvers(document, groups);
   append_growth(document, groups);
   append_clouds(document, groups);
   append_further_quantities(document, groups);
@@ -151,7 +156,7 @@ std::string brief_report(const Results &results) {
       main.push_back(group);
   Document document;
   append_header(document, results, groups);
-  if (!groups.empty() || !has_hard_cases(results))
+  if (!groups.empty() || !(has_hard_cases(results) || has_solver_cases(results)))
     append_comparison(document, main);
   if (groups.size() > main.size())
     document.push_back(Paragraph{fmt::format(
@@ -159,6 +164,7 @@ std::string brief_report(const Results &results) {
         "in the files.",
         groups.size() - main.size())});
   append_hard_cases_in_brief(document, results);
+  append_solvers_in_brief(document, results);
   append_unexpected(document, results);
   append_summary(document, results);
   return render_text(document);

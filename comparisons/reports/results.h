@@ -19,8 +19,9 @@ struct Spread {
   double maximum = 0;
 };
 
-/// Names of the phases of `Cell::seconds` in the order of a run; total is the sum of all but evaluation.
-inline constexpr std::array<const char *, 8> phases{"points", "neighbours", "basis",      "assembly",
+/// Names of the phases of `Cell::seconds` in the order of a run; total is the sum of all but evaluation. `setup` is the
+/// ordering and the factors of a linear solver that is timed by itself; elsewhere it is part of `solve`.
+inline constexpr std::array<const char *, 9> phases{"points", "neighbours", "basis",      "assembly", "setup",
                                                     "solve",  "recovery",   "evaluation", "total"};
 
 enum class Status { ok, refused, failed, limit };
@@ -52,8 +53,9 @@ struct Cell {
   /// Error name -> value; only finite values of cells with status ok are ever written as numbers.
   std::map<std::string, double> errors;
   std::map<std::string, double> quantities;
-  /// Phases points, neighbours, basis, assembly, solve, recovery, evaluation, total (without
-  /// evaluation), in seconds.
+  /// "method", "ordering", "preconditioner" of the linear solver that was used; empty if none was.
+  std::map<std::string, std::string> linear_solver;
+  /// Phases by the names of `phases`, in seconds.
   std::map<std::string, Spread> seconds;
   int repeats = 0;
   std::vector<Series> series;

@@ -73,6 +73,19 @@ void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, 
   quantities["cloud_worst_y"] = cloud.worst_point[1];
 }
 
+/// The rule for every linear solver: its error is at most a hundredth of the discretisation's.
+void check_algebraic_error(reports::Cell &cell) {
+  const auto algebraic = cell.quantities.find("algebraic_error");
+  const auto whole = cell.errors.find("displacement_l2_relative");
+  if (algebraic == cell.quantities.end() || whole == cell.errors.end())
+    return;
+  constexpr double rounding = 1e-10; // what is left of a solution that the method can represent, as in a patch test
+  if (whole->second > rounding && algebraic->second > .01 * whole->second)
+    cell.warnings.push_back(fmt::format("the linear system was solved with a relative error of {:.1e}, more than a "
+                                        "hundredth of the displacement's",
+                                        algebraic->second));
+}
+
 class PlaneExperiment final : public Experiment {
 public:
   PlaneExperiment(std::unique_ptr<problems::PlaneProblem> problem, const std::vector<methods::Method> &methods,
@@ -95,6 +108,7 @@ public:
     cell.n_dofs = record.n_dofs;
     cell.nonzeros = record.nonzeros;
     cell.warnings = record.warnings;
+    cell.linear_solver = record.linear_solver;
     const auto condition = record.quantities.find("reciprocal_condition");
     if (condition != record.quantities.end() && condition->second < 1e-12)
       cell.warnings.push_back(fmt::format(
@@ -108,6 +122,7 @@ public:
     const auto &quadrature = quadrature_of(level);
     watch.lap();
     cell.errors = metrics::error_norms(*solution, *problem_, quadrature);
+    check_algebraic_error(cell);
     const auto equilibrium = metrics::equilibrium(*solution, problem_->statement(), quadrature);
     cell.quantities["force_imbalance"] = equilibrium.imbalance;
     if (equilibrium.discrete_imbalance)

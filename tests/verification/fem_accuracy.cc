@@ -188,6 +188,26 @@ TEST(FemSolvers, one_correction_gains_digits) {
   EXPECT_LT(corrected, .1 * error(0));
 }
 
+/// The estimate is what the last correction has changed: above the error that is left, and no more than what there was
+/// without it.
+TEST(FemSolvers, estimate_their_algebraic_error) {
+  const Cantilever plate;
+  const auto exact = plate.exact();
+  const auto problem = left_fixed(jittered({0, 0}, {1, .2}, 41, 9), plate.material, exact);
+  EXPECT_FALSE(solve(problem, {4, LinearSolver::cholesky, 0}).algebraic_error());
+  // The elements hold the exact cubic: all errors are the solver's.
+  const auto error = [&](const PlaneSolution &solution) {
+    return errors(solution, exact, {0, 0}, {1, .2}).displacement;
+  };
+  for (const auto solver : {LinearSolver::cholesky, LinearSolver::umfpack}) {
+    const auto corrected = solve(problem, {4, solver, 1});
+    ASSERT_TRUE(corrected.algebraic_error());
+    EXPECT_GT(*corrected.algebraic_error(), error(corrected));
+    // Both norms are relative ones of the same displacement, by nodes and by points.
+    EXPECT_LT(*corrected.algebraic_error(), 10 * error(solve(problem, {4, solver, 0})));
+  }
+}
+
 TEST(FemSolvers, repeat_bit_for_bit) {
   const Cantilever plate;
   const auto exact = plate.exact();

@@ -423,6 +423,8 @@ std::vector<scene::MethodDescription> descriptions() {
       continue; // has no equations of motion
     auto description = method.description;
     description.effects = {"elasticity", "inertia", "damping", "body_force", "thermal_expansion"};
+    std::erase_if(description.parameters,
+                  [](const auto &p) { return p.name == "ordering" || p.name == "preconditioner"; });
     description.parameters.push_back({.name = "integration",
                                       .type = Type::choice,
                                       .choices = {"newmark", "central_difference"},

@@ -6,6 +6,7 @@
 #include "comparisons/reports/page/html.h"
 #include "comparisons/reports/page/svg.h"
 #include "comparisons/reports/reports.h"
+#include "comparisons/reports/solvers_section.h"
 
 #include <fmt/format.h>
 
@@ -199,7 +200,8 @@ std::string html_page(const Results &results, const PageFiles &files) {
     alarms += fmt::format("<p class='alarm'>NOT COMPARABLE: {}</p>\n", html_escaped(reason));
   if (results.interrupted)
     alarms += "<p class='alarm'>INTERRUPTED: the cells that had not been computed are missing.</p>\n";
-  const bool to_explore = !std::all_of(results.cells.begin(), results.cells.end(), is_hard_case);
+  const bool to_explore = !std::all_of(results.cells.begin(), results.cells.end(),
+                                       [](const Cell &cell) { return is_hard_case(cell) || is_solver_case(cell); });
   return fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
       "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"

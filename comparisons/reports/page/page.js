@@ -36,7 +36,8 @@
 
   const groups = new Map();
   for (const cell of results.cells) {
-    if (cell.benchmark === 'hard_cases') continue; // no levels, no cost: a table of their own
+    // Tables of their own: hard cases have no levels and no cost, linear solvers solve the same system.
+    if (cell.benchmark === 'hard_cases' || cell.benchmark === 'solvers') continue;
     const title = [cell.benchmark + (cell.scene ? ' / ' + cell.scene : ''), cell.variant].filter(Boolean).join(', ');
     if (!groups.has(title)) groups.set(title, []);
     groups.get(title).push(cell);

@@ -80,10 +80,14 @@ std::vector<double> free_residual(const PlaneSolution::Implementation &solution)
 void correct(linear_algebra::DirectSolver &solver, PlaneSolution::Implementation &solution) {
   const auto &prescribed = solution.essential.prescribed;
   auto &displacement = solution.values;
-  const auto correction = solver.solve(free_residual(solution));
+  auto correction = solver.solve(free_residual(solution));
   for (std::size_t i = 0; i < displacement.size(); ++i)
     if (prescribed[i] == 0)
       displacement[i] += correction[i];
+    else
+      correction[i] = 0;
+  if (const double size = norm(displacement); size > 0)
+    solution.algebraic_error = norm(correction) / size;
 }
 
 void check_finite(std::span<const double> values) {
@@ -130,6 +134,8 @@ void solve_without_matrix(const PlaneProblem &problem, const Options &options, P
     for (std::size_t i = 0; i < correction.size(); ++i)
       solution.values[i] += correction[i];
     residual = free_residual(solution);
+    if (const double size = norm(solution.values); size > 0)
+      solution.algebraic_error = norm(correction) / size * norm(residual) / (left * first);
   }
   check_finite(solution.values);
   solution.n_dofs = solution.values.size();

@@ -71,6 +71,8 @@ double PlaneSolution::relative_residual() const { return implementation_->relati
 
 double PlaneSolution::backward_error() const { return implementation_->backward_error; }
 
+std::optional<double> PlaneSolution::algebraic_error() const { return implementation_->algebraic_error; }
+
 int PlaneSolution::iterations() const { return implementation_->iterations; }
 
 std::size_t PlaneSolution::contradicted_values() const { return implementation_->essential.contradicted; }

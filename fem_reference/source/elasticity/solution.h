@@ -48,6 +48,7 @@ public:
   Seconds seconds;
   double relative_residual = 0;
   double backward_error = 0;
+  std::optional<double> algebraic_error;
   mutable std::atomic<std::size_t> points_outside{0};
 
 private:

@@ -17,7 +17,9 @@ void ParticleSolution::set_figures(const SolveSeconds &spent, std::int64_t entri
   seconds = spent;
   nonzeros = entries;
   backward_error = system.backward_error;
+  algebraic_error = system.algebraic_error;
   reciprocal_condition = system.reciprocal_condition;
+  solver = system.taken;
   iterations = system.iterations;
   fell_back = system.fell_back;
 }

@@ -2,6 +2,7 @@
 
 #include "../parallel/ordered_chunks.h"
 
+#include "meshless/elasticity/linear_system.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/row_sample.h"
 #include "meshless/linear_algebra/sparse_rows.h"
@@ -87,26 +88,34 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
   assembler.seconds.assembly += share * spent.assembly;
 }
 
-/// Assembles all rows, divides each by its largest entry, and solves.
+/// Assembles all rows and divides each by its largest entry.
 /// @tparam Assembler has `seconds` and assemble(particle, SparseRows &, std::vector<double> &)
 /// @param another () -> Assembler, for other threads
 /// @param per_particle rows of a particle
+template <typename Assembler, typename Another>
+LinearSystem assemble_system(Assembler &assembler, const Another &another, std::size_t n_particles,
+                             std::size_t per_particle) {
+  LinearSystem system{linear_algebra::SparseRows(static_cast<std::int64_t>(per_particle * n_particles)), {}};
+  system.right_hand_side.reserve(per_particle * n_particles);
+  assemble_rows(assembler, another, n_particles, system.matrix, system.right_hand_side);
+  linear_algebra::Stopwatch watch;
+  const auto divisors = system.matrix.equilibrate_rows();
+  for (std::size_t row = 0; row < divisors.size(); ++row)
+    system.right_hand_side[row] /= divisors[row];
+  assembler.seconds.assembly += watch.lap();
+  return system;
+}
+
+/// The same, solved.
 /// @throws linear_algebra::SolveError, or what the assembler throws
 template <typename Assembler, typename Another>
 SolvedRows assemble_and_solve(Assembler &assembler, const Another &another, std::size_t n_particles,
-                              std::size_t per_particle, linear_algebra::SystemSolver solver) {
-  linear_algebra::SparseRows matrix(static_cast<std::int64_t>(per_particle * n_particles));
-  std::vector<double> right_hand_side;
-  right_hand_side.reserve(per_particle * n_particles);
-  assemble_rows(assembler, another, n_particles, matrix, right_hand_side);
+                              std::size_t per_particle, const linear_algebra::SolverRequest &solver) {
+  const auto rows = assemble_system(assembler, another, n_particles, per_particle);
   linear_algebra::Stopwatch watch;
-  const auto divisors = matrix.equilibrate_rows();
-  for (std::size_t row = 0; row < divisors.size(); ++row)
-    right_hand_side[row] /= divisors[row];
-  assembler.seconds.assembly += watch.lap();
-  auto system = linear_algebra::solve_system(matrix, right_hand_side, solver, per_particle);
+  auto system = linear_algebra::solve_system(rows.matrix, rows.right_hand_side, solver, per_particle);
   assembler.seconds.solve = watch.lap();
-  return {std::move(system), matrix.nonzeros()};
+  return {std::move(system), rows.matrix.nonzeros()};
 }
 
 /// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.

@@ -71,38 +71,4 @@ void BlockRows::multiply(std::span<const double> x, std::span<double> y) const {
   }
 }
 
-std::vector<Index> reverse_cuthill_mckee(const SparseRows &matrix) {
-  const auto n = static_cast<std::size_t>(matrix.n_rows()) / 2;
-  std::vector<Index> order;
-  std::vector<char> seen;
-  // Breadth first, from what the last search ended with: after two such searches that is a far end of the domain.
-  const auto search = [&](Index first) {
-    order.clear();
-    seen.assign(n, 0);
-    std::size_t head = 0;
-    for (std::size_t part = 0; order.size() < n; ++part) {
-      Index root = first;
-      if (part > 0)
-        root = static_cast<Index>(std::find(seen.begin(), seen.end(), char{0}) - seen.begin());
-      order.push_back(root);
-      seen[root] = 1;
-      for (; head < order.size(); ++head) {
-        const auto begin = static_cast<std::size_t>(matrix.offsets()[2 * std::size_t{order[head]}]);
-        const auto end = static_cast<std::size_t>(matrix.offsets()[2 * std::size_t{order[head]} + 2]);
-        for (std::size_t k = begin; k < end; ++k)
-          if (const auto j = static_cast<Index>(matrix.columns()[k] / 2); seen[j] == 0) {
-            seen[j] = 1;
-            order.push_back(j);
-          }
-      }
-    }
-    return order.back();
-  };
-  Index end = 0;
-  for (int k = 0; k < 3; ++k)
-    end = search(end);
-  std::reverse(order.begin(), order.end());
-  return order;
-}
-
 } // namespace meshless::linear_algebra

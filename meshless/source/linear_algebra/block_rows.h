@@ -32,8 +32,4 @@ inline double size_of(const BlockRows::Block &a) {
   return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) + std::abs(a[3]);
 }
 
-/// Reverse Cuthill-McKee: order[k] is the particle at place k. Neighbours are near each other, which keeps what an
-/// incomplete factorisation leaves out small, and the caches full.
-std::vector<BlockRows::Index> reverse_cuthill_mckee(const SparseRows &matrix);
-
 } // namespace meshless::linear_algebra

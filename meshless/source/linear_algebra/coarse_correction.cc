@@ -130,6 +130,11 @@ void CoarseCorrection::set_products(const BlockRows &matrix) {
   }
 }
 
+std::size_t CoarseCorrection::bytes() const {
+  return columns_.size() * (sizeof(Index) + sizeof(BlockRows::Block)) + start_.size() * sizeof(std::size_t) +
+         (coarse_lu_ ? coarse_lu_->bytes() : 0);
+}
+
 void CoarseCorrection::apply(std::span<const double> r, std::span<double> x) {
   if (!coarse_lu_) {
     factors_.solve(r, x);

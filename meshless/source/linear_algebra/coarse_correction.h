@@ -23,6 +23,8 @@ public:
 
   /// x = the preconditioned r; all of 2 n_rows() entries.
   void apply(std::span<const double> r, std::span<double> x);
+  /// Without those of the incomplete factors.
+  std::size_t bytes() const;
 
 private:
   using Index = BlockRows::Index;

@@ -26,6 +26,7 @@ struct SparseLu::Handles {
   void *symbolic = nullptr;
   void *numeric = nullptr;
   double reciprocal_condition = 0;
+  std::size_t bytes = 0;
 
   Handles() = default;
   Handles(const Handles &) = delete;
@@ -36,7 +37,8 @@ struct SparseLu::Handles {
   }
 };
 
-SparseLu::SparseLu(const SparseRows &matrix) : matrix_(matrix), handles_(std::make_unique<Handles>()) {
+SparseLu::SparseLu(const SparseRows &matrix, Ordering ordering)
+    : matrix_(matrix), handles_(std::make_unique<Handles>()) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   // Compressed rows of A are compressed columns of A^T: factorise that and solve with its transpose.
   const auto *offsets = reinterpret_cast<const SuiteSparse_long *>(matrix.offsets().data());
@@ -47,15 +49,28 @@ SparseLu::SparseLu(const SparseRows &matrix) : matrix_(matrix), handles_(std::ma
   double control[UMFPACK_CONTROL];
   double info[UMFPACK_INFO];
   umfpack_dl_defaults(control);
-  check(umfpack_dl_symbolic(n, n, offsets, columns, values, &handles_->symbolic, control, info), "ordering");
+  if (ordering == Ordering::rcm) {
+    const auto order = order_of(matrix, ordering, 1);
+    const std::vector<SuiteSparse_long> given(order.begin(), order.end());
+    check(umfpack_dl_qsymbolic(n, n, offsets, columns, values, given.data(), &handles_->symbolic, control, info),
+          "ordering");
+  } else {
+    control[UMFPACK_ORDERING] = ordering == Ordering::metis ? UMFPACK_ORDERING_METIS
+                                : ordering == Ordering::amd ? UMFPACK_ORDERING_AMD
+                                                            : UMFPACK_ORDERING_NONE;
+    check(umfpack_dl_symbolic(n, n, offsets, columns, values, &handles_->symbolic, control, info), "ordering");
+  }
   check(umfpack_dl_numeric(offsets, columns, values, handles_->symbolic, &handles_->numeric, control, info),
         "factorisation");
   handles_->reciprocal_condition = info[UMFPACK_RCOND];
+  handles_->bytes = static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]);
 }
 
 SparseLu::~SparseLu() = default;
 
 double SparseLu::reciprocal_condition() const { return handles_->reciprocal_condition; }
+
+std::size_t SparseLu::bytes() const { return handles_->bytes; }
 
 void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> solution, Refinement refinement) const {
   double control[UMFPACK_CONTROL];
@@ -72,12 +87,20 @@ void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> 
       throw SolveError(fmt::format("unknown {} of the solution is not finite", i));
 }
 
-LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side) {
-  const SparseLu lu(matrix);
+LuResult solve_lu(const SparseRows &matrix, std::span<const double> right_hand_side, Ordering ordering) {
+  return solve_lu(SparseLu(matrix, ordering), matrix, right_hand_side);
+}
+
+LuResult solve_lu(const SparseLu &lu, const SparseRows &matrix, std::span<const double> right_hand_side) {
   LuResult result;
   result.reciprocal_condition = lu.reciprocal_condition();
   result.solution.resize(static_cast<std::size_t>(matrix.n_rows()));
+  std::vector<double> unrefined(result.solution.size());
+  lu.solve(right_hand_side, unrefined, SparseLu::Refinement::none);
   lu.solve(right_hand_side, result.solution);
+  if (const double loose_error = backward_error(matrix, unrefined, right_hand_side); loose_error > 0)
+    result.algebraic_error = relative_distance(unrefined, result.solution) *
+                             backward_error(matrix, result.solution, right_hand_side) / loose_error;
   return result;
 }
 

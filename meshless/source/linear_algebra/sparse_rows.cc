@@ -82,6 +82,16 @@ double maximum_norm(std::span<const double> x) {
   return largest;
 }
 
+double relative_distance(std::span<const double> x, std::span<const double> y) {
+  double distance = 0;
+  double length = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    distance += (x[i] - y[i]) * (x[i] - y[i]);
+    length += y[i] * y[i];
+  }
+  return distance > 0 ? std::sqrt(distance / length) : 0;
+}
+
 double maximum_norm(const SparseRows &matrix) {
   double largest = 0;
   for (std::size_t row = 0; row < static_cast<std::size_t>(matrix.n_rows()); ++row) {

@@ -83,11 +83,17 @@ std::optional<Json> value_of(const Json &cell, const std::string &section, const
       {"total minimum", "/seconds/minimum/total"},
       {"total maximum", "/seconds/maximum/total"},
       {"neigh- bours", "/seconds/neighbours"},
-      {"runs", "/seconds/repeats"}};
+      {"runs", "/seconds/repeats"},
+      {"iter- ations", "/quantities/solver_iterations"},
+      {"iterations", "/quantities/solver_iterations"},
+      {"solver iterations", "/quantities/solver_iterations"},
+      {"backward error", "/quantities/backward_error"},
+      {"algebraic error", "/quantities/algebraic_error"}};
   if (header == "spread %")
     return scaled(cell["seconds"]["spread"], 100);
-  if (header == "method" || header == "level" || header == "status")
-    return std::nullopt;
+  for (const char *words : {"method", "level", "status", "linear solver", "ordering", "preconditioner"})
+    if (header == words)
+      return std::nullopt;
   if (header == "memory MB")
     return cell["status"] == "ok" ? scaled(cell["memory_bytes"], 1e-6) : Json(nullptr);
   if (cell["status"] != "ok" && header == "total s")
@@ -253,7 +259,8 @@ void check(const std::vector<ParsedTable> &tables, const std::map<std::string, i
     else if (table.section == "Orders of convergence")
       check_rates(comparison, results, table);
     else if (table.section == "Comparison" || table.section == "Seconds by phase" ||
-             table.section == "Particles and bases" || table.section == "Further errors and quantities")
+             table.section == "Particles and bases" || table.section == "Linear solvers used" ||
+             table.section == "Further errors and quantities")
       check_cell_table(comparison, json, results, table);
     else if (table.section.starts_with("SSPH and finite elements"))
       check_facts(comparison, json, table);
@@ -265,6 +272,7 @@ void check(const std::vector<ParsedTable> &tables, const std::map<std::string, i
                                       {"Seconds for equal errors", 2},
                                       {"Not beaten in seconds and error (Pareto front)", 2},
                                       {"Orders of convergence", 1},
+                                      {"Linear solvers used", 3},
                                       {"SSPH and finite elements, measured (Zhang & Batra 2008, Table 7)", 1},
                                       {"Scenes", 1},
                                       {"Summary", 1},

@@ -192,6 +192,80 @@ TEST(HardCases, AreATableOfTheirOwnAndNoComparison) {
   EXPECT_TRUE(contains(brief, "hard_cases / patch, linear, graded")); // and what fails
 }
 
+namespace {
+
+/// An alternative for one linear system.
+Cell solver_cell(const std::string &method, const std::string &preconditioner, double seconds, double part) {
+  Cell cell;
+  cell.benchmark = "solvers";
+  cell.scene = "scene";
+  cell.variant = "system=cantilever";
+  cell.method = method;
+  cell.label = method + " preconditioner=" + preconditioner;
+  cell.level = "2600";
+  cell.n_dofs = 5106;
+  cell.nonzeros = 632692;
+  cell.parameters = {{"chosen", preconditioner == "thinned+coarse"}};
+  cell.linear_solver = {{"method", method}, {"ordering", "rcm"}, {"preconditioner", preconditioner}};
+  cell.errors["algebraic_error"] = 1e-2 * part;
+  cell.quantities = {{"discretisation_error", 1e-2},
+                     {"algebraic_over_discretisation", part},
+                     {"backward_error", 1.25e-16},
+                     {"solver_iterations", 26},
+                     {"factor_bytes", 2.4e6}};
+  cell.seconds["setup"] = {.25 * seconds, .25 * seconds, .25 * seconds};
+  cell.seconds["solve"] = {.75 * seconds, .75 * seconds, .75 * seconds};
+  cell.seconds["total"] = {seconds, seconds, seconds};
+  return cell;
+}
+
+} // namespace
+
+TEST(LinearSolvers, AreATableOfTheirOwnAndNoComparison) {
+  Results results = reports_sample::results();
+  const std::size_t n_groups = group_cells(results).size();
+  results.cells.push_back(solver_cell("bicgstab", "thinned+coarse", .04, 1e-8));
+  results.cells.push_back(solver_cell("gmres", "ilut+coarse", .032, 2e-8));
+  results.cells.push_back(solver_cell("gmres", "ilu0", .02, .5)); // the fastest, but it breaks the rule
+  results.cells.push_back(solver_cell("bicgstab", "ilut", .01, 1));
+  results.cells.back().status = Status::failed;
+  results.cells.back().reason = "no convergence: a backward error of 1.0e-02 after 500 iterations";
+  EXPECT_EQ(group_cells(results).size(), n_groups);
+  results = parse_results(json_text(results));
+  EXPECT_EQ(results.cells.back().linear_solver.at("preconditioner"), "ilut");
+  for (const std::string &report :
+       {text_report(results), markdown_report(results), latex_report(results), html_page(results, {})})
+    for (const char *part : {"Linear solvers, system=cantilever, 2600", "too loose", "no convergence",
+                             "fastest of those that keep the rule: gmres, rcm, ilut+coarse: 0.032 s",
+                             "by themselves at this size: bicgstab, rcm, thinned+coarse: 0.04 s"})
+      EXPECT_TRUE(contains(report, part)) << part;
+  EXPECT_TRUE(contains(brief_report(results), "bicgstab *"));
+  EXPECT_FALSE(contains(brief_report(reports_sample::results()), "Linear solvers"));
+}
+
+TEST(LinearSolvers, OfAFileFromElsewhereMayLackEverything) {
+  Results results;
+  results.scene = nlohmann::ordered_json::array();
+  results.cells.push_back(solver_cell("umfpack", "", .1, 1e-9));
+  auto &cell = results.cells.back();
+  cell.linear_solver.clear();
+  cell.quantities.clear();
+  cell.errors.clear();
+  cell.seconds.clear();
+  cell.parameters = {{"chosen", "yes"}, {"backward_error", "none"}};
+  EXPECT_TRUE(contains(text_report(results), "Linear solvers, system=cantilever, 2600"));
+}
+
+TEST(LinearSolvers, OfOtherBenchmarksAreNamed) {
+  Results results = reports_sample::results();
+  for (const std::string &report : {text_report(results), markdown_report(results), latex_report(results)})
+    for (const char *part : {"Linear solvers used", "bicgstab", "rcm", "thinned+coarse", "3.5e-16", "2.5e-12"})
+      EXPECT_TRUE(contains(report, part)) << part;
+  for (Cell &cell : results.cells)
+    cell.linear_solver.clear();
+  EXPECT_FALSE(contains(text_report(results), "Linear solvers used"));
+}
+
 TEST(HardCases, OfAFileFromElsewhereMayLackEverything) {
   Results results;
   results.scene = nlohmann::ordered_json::array();

@@ -40,6 +40,10 @@ inline Cell cell(const std::string &scene, const std::string &label, const std::
     cell.quantities.insert({{"fact_nonzeros_per_row", 39.8256123},
                             {"fact_symmetry_defect", cell.method == "fem" ? 1.3256789e-15 : 0.4034567},
                             {"fact_stress_jump", cell.method == "fem" ? 0.2990912 : 4.3046789e-07}});
+  cell.linear_solver = {{"method", "bicgstab"}, {"ordering", "rcm"}, {"preconditioner", "thinned+coarse"}};
+  if (cell.method == "fem")
+    cell.linear_solver = {{"method", "cg"}, {"preconditioner", "multigrid"}};
+  cell.quantities.insert({{"solver_iterations", 26}, {"backward_error", 3.5e-16}, {"algebraic_error", 2.5e-12}});
   double total = 0;
   for (const char *phase : phases) {
     const double seconds = 0.001234567 * static_cast<double>(std::char_traits<char>::length(phase));

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -107,6 +108,10 @@ public:
   /// Normwise backward error ||K u - f|| / (||K|| ||u|| + ||f||) in the maximum norm: about the
   /// machine precision when the direct solver did all it could. Of multigrid an upper bound of it.
   double backward_error() const;
+  /// Estimate of the relative error of the unknowns as a solution of K u = f, in the 2-norm, by tightening: what the
+  /// last correction has changed (of an iteration times what it has left of the residual). Of a direct solver that is
+  /// an upper bound, since a correction gains a digit or more. Nothing without a correction.
+  std::optional<double> algebraic_error() const;
   /// Of an iterative solver, all corrections together; 0 of a direct one.
   int iterations() const;
   /// Nodal components for which boundary ids prescribe different displacements.

@@ -70,7 +70,9 @@ public:
   SolveSeconds seconds;
   std::int64_t nonzeros = 0;
   double backward_error = 0;
+  double algebraic_error = 0; ///< of the coefficients, relative: SystemSolution::algebraic_error
   double reciprocal_condition = 0;
+  linear_algebra::SolverChoice solver;
   int iterations = 0;     ///< of the linear solver; 0: sparse LU
   bool fell_back = false; ///< to sparse LU
 

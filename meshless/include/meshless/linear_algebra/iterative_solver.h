@@ -1,33 +1,93 @@
 #pragma once
 
+#include "meshless/linear_algebra/krylov.h"
+#include "meshless/linear_algebra/ordering.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace meshless::linear_algebra {
 
+/// Incomplete factors of blocks of 2 x 2, alone or with a coarse system of aggregates.
+enum class Preconditioner {
+  ilu0,        ///< on the pattern of A
+  thinned,     ///< on the pattern of A less what is small
+  ilut,        ///< with fill, less what is small (Saad 1994)
+  ilu0_coarse, ///< each with the coarse system
+  thinned_coarse,
+  ilut_coarse,
+};
+
+struct PreconditionerDescription {
+  Preconditioner preconditioner;
+  const char *name;
+  const char *meaning;
+};
+
+/// Every preconditioner by its name.
+std::span<const PreconditionerDescription> preconditioner_table();
+const char *to_text(Preconditioner preconditioner);
+/// @throws std::invalid_argument for an unknown name, listing those there are
+Preconditioner preconditioner_of(std::string_view name);
+
+struct PreconditionerSettings {
+  Preconditioner preconditioner = Preconditioner::thinned_coarse;
+  Ordering ordering = Ordering::rcm;
+  /// Blocks below this part of the largest of their row are left out; none: 2e-3 (thinned), 1e-2 (ILUT).
+  std::optional<double> drop = {};
+  /// Of ILUT: blocks of a row of both factors over those of the row of A.
+  double fill = 2;
+};
+
+/// A matrix with two unknowns a particle (2 I and 2 I + 1), in an order of its own, and its preconditioner.
+///
+/// The operators of smooth particle bases have wide rows of which little matters: hence thinned factors, without fill
+/// and in single precision. A coarse system of aggregates takes what the factors do not see: the number of iterations
+/// hardly depends on that of particles.
+class PreconditionedSystem {
+public:
+  /// @throws std::invalid_argument if A is not square with an even number of rows; SolveError if a pivot block is
+  ///   singular
+  PreconditionedSystem(const SparseRows &matrix, const PreconditionerSettings &settings);
+  ~PreconditionedSystem();
+  PreconditionedSystem(const PreconditionedSystem &) = delete;
+  PreconditionedSystem &operator=(const PreconditionedSystem &) = delete;
+
+  KrylovResult solve(Krylov krylov, std::span<const double> right_hand_side, const KrylovTolerance &tolerance = {});
+
+  /// Least over largest pivot of the incomplete factor U: as rough as what sparse LU tells.
+  double reciprocal_condition() const;
+  /// Of the factors and the coarse system.
+  std::size_t bytes() const;
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+struct IterativeSettings {
+  Krylov krylov = Krylov::bicgstab;
+  PreconditionerSettings preconditioner;
+  KrylovTolerance tolerance;
+};
+
 struct IterativeResult {
   std::vector<double> solution;
   int iterations = 0;
-  /// Least over largest diagonal entry of the incomplete factor U: as rough as what sparse LU tells.
+  double algebraic_error = 0; ///< KrylovResult::algebraic_error
   double reciprocal_condition = 0;
 };
 
-/// Solves A x = b, with two unknowns a particle (2 I and 2 I + 1), by BiCGSTAB (van der Vorst 1992) with an incomplete
-/// factorisation by blocks of 2 x 2.
-///
-/// The operators of smooth particle bases have wide rows of which little matters: entries of a block row below `drop`
-/// of its largest are left out, and the rest is factorised without fill, in single precision, in reverse Cuthill-McKee
-/// order. Fill, as in ILUT, made systems of order 3 and 4 diverge, and costs more than it saves. A coarse system of
-/// aggregates takes what the factors do not see: the number of iterations hardly depends on that of particles.
-///
-/// The iteration starts anew from the true residual until the backward error is below 1e-15, or does not fall tenfold.
-///
-/// @return none if the backward error does not come below 1e-13, or a pivot is zero: use sparse LU
+/// Solves A x = b, with two unknowns a particle.
+/// @return none if the backward error does not come within a hundred times the wanted one, or a pivot is zero: use
+///   sparse LU
 /// @throws std::invalid_argument if A is not square with an even number of rows
 std::optional<IterativeResult> solve_iteratively(const SparseRows &matrix, std::span<const double> right_hand_side,
-                                                 double drop = 2e-3);
+                                                 const IterativeSettings &settings = {});
 
 } // namespace meshless::linear_algebra

@@ -48,6 +48,8 @@ SparseRows combine(double a, const SparseRows &matrix_a, double b, const SparseR
 
 /// Largest |x_i|.
 double maximum_norm(std::span<const double> x);
+/// |x - y|_2 / |y|_2; 0 if both are zero.
+double relative_distance(std::span<const double> x, std::span<const double> y);
 /// |A|_inf, the largest sum of a row's absolute entries.
 double maximum_norm(const SparseRows &matrix);
 

@@ -35,7 +35,9 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   auto assembler = make();
   assembler.seconds.neighbours = watch.lap();
 
-  const auto solved = assemble_and_solve(assembler, make, n, 3, linear_algebra::SystemSolver::direct);
+  linear_algebra::SolverRequest request(linear_algebra::SystemSolver::direct);
+  request.ordering = parameters.ordering;
+  const auto solved = assemble_and_solve(assembler, make, n, 3, request);
 
   std::vector<double> displacement(2 * n);
   PressureField pressure{std::move(pressure_basis), std::vector<double>(n)};

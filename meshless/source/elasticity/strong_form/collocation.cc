@@ -338,7 +338,7 @@ void add_rows(const PlaneProblem &problem, const Surroundings &surroundings, con
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
-                       const std::vector<CornerRule> &corner_rules, linear_algebra::SystemSolver solver) {
+                       const std::vector<CornerRule> &corner_rules, const linear_algebra::SolverRequest &solver) {
   problem.check();
   problem.require_inside(*particles);
   SolveSeconds seconds;
@@ -361,9 +361,10 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
     right_hand_side[row] /= divisors[row];
   seconds.assembly += watch.lap();
   // Of order 4 the iteration does not converge on irregular particles.
-  if (solver == linear_algebra::SystemSolver::automatic && basis->order() > 3)
-    solver = linear_algebra::SystemSolver::direct;
-  auto system = linear_algebra::solve_system(matrix, right_hand_side, solver);
+  auto request = solver;
+  if (solver.solver == linear_algebra::SystemSolver::automatic && basis->order() > 3)
+    request.solver = linear_algebra::SystemSolver::direct;
+  auto system = linear_algebra::solve_system(matrix, right_hand_side, request);
   seconds.solve = watch.lap();
 
   ParticleSolution solution(std::move(particles), std::move(basis), DerivativeRule::direct, surroundings,

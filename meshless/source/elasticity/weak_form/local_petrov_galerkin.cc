@@ -73,6 +73,26 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   return solution;
 }
 
+LinearSystem linear_system(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                           const basis::ShapeFunctions<2> &basis, const Parameters &parameters) {
+  problem.check();
+  problem.require_inside(particles);
+  const Surroundings surroundings(problem.regions);
+  const auto make = [&] { return Assembler(problem, surroundings, particles, basis, parameters); };
+  auto assembler = make();
+  require_basis_at_particles(surroundings, particles, basis);
+  return assemble_system(assembler, make, particles.size(), 2);
+}
+
+ParticleSolution solution_of(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
+                             std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters,
+                             std::vector<double> coefficients) {
+  ParticleSolution solution(std::move(particles), std::move(basis), parameters.derivatives,
+                            std::make_shared<const Surroundings>(problem.regions), std::move(coefficients));
+  solution.set_thermal_strain(problem.thermal_strain);
+  return solution;
+}
+
 RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &particles,
                       const basis::ShapeFunctions<2> &basis, const Parameters &parameters, std::size_t n_sampled) {
   problem.check();

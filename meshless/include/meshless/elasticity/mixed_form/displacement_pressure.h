@@ -18,6 +18,8 @@ struct Parameters {
   weak_form::Subdomains subdomains = weak_form::Subdomains::whole;
   /// alpha of tau = alpha h_I^2 / (2 mu), > 0; 0 leaves the pressure free to oscillate.
   double stabilisation = 0.2;
+  /// Of sparse LU; none: by size.
+  std::optional<linear_algebra::Ordering> ordering;
 };
 
 /// Solves the problem for displacement u and pressure p = lambda div u, both unknown at all particles, with equal-order

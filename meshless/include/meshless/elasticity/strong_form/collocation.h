@@ -22,8 +22,7 @@ namespace meshless::elasticity::strong_form {
 ///   problem, a corner rule that cannot be met or has no particle, a basis of order 1)
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis,
-                       const std::vector<CornerRule> &corner_rules,
-                       linear_algebra::SystemSolver solver = linear_algebra::SystemSolver::automatic);
+                       const std::vector<CornerRule> &corner_rules, const linear_algebra::SolverRequest &solver = {});
 
 /// The same rows as equations of motion: inside sigma_ij,j = rho a_i - b_i, so that the mass is -rho phi_J there and
 /// empty on boundaries. A body without supports is allowed.

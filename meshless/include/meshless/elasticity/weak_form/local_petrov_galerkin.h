@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshless/elasticity/equations_of_motion.h"
+#include "meshless/elasticity/linear_system.h"
 #include "meshless/elasticity/particle_solution.h"
 #include "meshless/elasticity/plane_problem.h"
 #include "meshless/elasticity/row_sample.h"
@@ -63,7 +64,7 @@ struct Parameters {
   PenaltyLength penalty_length = PenaltyLength::domain;
   /// L of the domain, m.
   double characteristic_length = 1;
-  linear_algebra::SystemSolver solver = linear_algebra::SystemSolver::automatic;
+  linear_algebra::SolverRequest solver;
 };
 
 /// A penalty that suits every cloud with PenaltyLength::smoothing. On clouds jittered by 30 % around a hole, orders 1
@@ -97,6 +98,16 @@ double nearest_smoothing_length(const cloud::Particles<2> &particles, std::span<
 ///   point; linear_algebra::SolveError; std::invalid_argument for an ill-posed problem
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters);
+
+/// The system that `solve` solves.
+/// @throws as solve
+LinearSystem linear_system(const PlaneProblem &problem, const cloud::Particles<2> &particles,
+                           const basis::ShapeFunctions<2> &basis, const Parameters &parameters);
+
+/// The field of coefficients found elsewhere from this system.
+ParticleSolution solution_of(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
+                             std::shared_ptr<const basis::ShapeFunctions<2>> basis, const Parameters &parameters,
+                             std::vector<double> coefficients);
 
 /// Assembles the rows of `n_sampled` particles, evenly spread over their numbers, and multiplies up.
 /// @throws as solve
