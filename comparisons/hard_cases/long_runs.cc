@@ -4,7 +4,6 @@
 #include "meshless/basis/derivative_operators.h"
 #include "meshless/basis/ssph.h"
 #include "meshless/dynamics/elastic_bar.h"
-#include "meshless/dynamics/violation.h"
 
 #include <fmt/format.h>
 
@@ -87,12 +86,8 @@ double energy_of_growing_bar(double smoothing_length) {
   };
   options.right_stress = [](double t) { return t < pulse_duration ? -1.0 : 0.0; };
   meshless::dynamics::ElasticBar bar(options);
-  try {
-    for (int step = 0; step < n_steps; ++step)
-      bar.step(cfl);
-  } catch (const meshless::dynamics::Violation &violation) {
-    throw NamedRefusal(violation.what());
-  }
+  for (int step = 0; step < n_steps; ++step)
+    bar.step(cfl);
   return std::abs(bar.energy() / bar.work() - 1);
 }
 
@@ -139,7 +134,9 @@ std::vector<HardCase> long_run_cases(const study::Catalogue &catalogue) {
                      "nothing may come out",
                      {"ssph"},
                      true,
-                     [h](const std::string &) { return Measurement{.error = energy_of_growing_bar(h)}; }});
+                     [h](const std::string &) {
+                       return with_named_ends([h] { return Measurement{.error = energy_of_growing_bar(h)}; });
+                     }});
   const std::string time = fmt::format("end = \"0.1603 s\"\ncfl = {}\nsnapshots = {}", cfl, n_snapshots);
   const std::string meaning = "a pulse to and fro in 100 points, a million steps; ";
   const double oscillation = energy_oscillation();

@@ -12,6 +12,20 @@
 
 namespace comparisons::hard_cases {
 
+Measurement with_named_ends(const std::function<Measurement()> &run) {
+  try {
+    return run();
+  } catch (const meshless::dynamics::Violation &violation) {
+    throw NamedRefusal(violation.what());
+  } catch (const std::exception &failure) {
+    // Explicit finite elements and gas schemes name time and cell in words of their own.
+    const std::string reason = failure.what();
+    if (reason.find("t = ") != std::string::npos || reason.find("time") != std::string::npos)
+      throw NamedRefusal(reason);
+    throw;
+  }
+}
+
 Measurement measure_scene(const study::Catalogue &catalogue, const std::string &text,
                           const std::function<double(const reports::Cell &)> &error) {
   const auto read = scene::read_scene_text(text, "hard case", {}, study::vocabulary_of(catalogue));
@@ -24,19 +38,10 @@ Measurement measure_scene(const study::Catalogue &catalogue, const std::string &
   const auto experiment = study::find_benchmark(catalogue, scene.benchmark)
                               .make_experiment(scene, scene.problems.front(), catalogue.methods);
   reports::Cell cell;
-  try {
+  return with_named_ends([&] {
     experiment->run(scene.methods.front(), scene.levels.front(), true, {}, cell);
-  } catch (const meshless::dynamics::Violation &violation) {
-    throw NamedRefusal(violation.what());
-  } catch (const std::exception &failure) {
-    // Explicit finite elements and gas schemes name time and cell in words of their own.
-    const std::string reason = failure.what();
-    if (reason.find("t = ") != std::string::npos || reason.find("time") != std::string::npos)
-      throw NamedRefusal(reason);
-    throw;
-  }
-  Measurement result{error(cell), {}, cell.warnings};
-  return result;
+    return Measurement{error(cell), {}, cell.warnings};
+  });
 }
 
 double value_of(const std::map<std::string, double> &values, const std::string &name) {

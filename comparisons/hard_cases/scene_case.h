@@ -10,8 +10,11 @@
 
 namespace comparisons::hard_cases {
 
-/// Runs the scene of this text, one method on one level. A run that its own guards end is a refusal with time, place
-/// and reason.
+/// What `run` gives; where a method's own guards end it, with time, place and reason, that is a refusal.
+/// @throws NamedRefusal; what else the method throws
+Measurement with_named_ends(const std::function<Measurement()> &run);
+
+/// Runs the scene of this text, one method on one level, with_named_ends.
 /// @throws NamedRefusal; std::logic_error for a scene that is not valid; what the method throws
 Measurement measure_scene(const study::Catalogue &catalogue, const std::string &text,
                           const std::function<double(const reports::Cell &)> &error);

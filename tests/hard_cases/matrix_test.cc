@@ -148,6 +148,17 @@ TEST(LongRuns, keep_their_energy_or_end_by_name) {
   }
 }
 
+// At h = 1.5 m / rho, the default of scenes, particles beside a contact discontinuity collide.
+TEST(BlastWaves, hold_or_end_by_name) {
+  for (const auto *hard_case : {"two blast waves, density", "two blast waves, balances"}) {
+    for (const auto *method : {"sph h=1.2", "fem P0", "fem P1"})
+      EXPECT_EQ(one(hard_case, method).verdict, CellVerdict::holds) << hard_case << ", " << method;
+    const auto collided = one(hard_case, "sph h=1.5");
+    EXPECT_EQ(collided.verdict, CellVerdict::refused) << hard_case;
+    EXPECT_NE(collided.reason.find("particles collide"), std::string::npos) << collided.reason;
+  }
+}
+
 TEST(Slit, is_refused_by_name) {
   for (const auto *method : {"weak1", "mixed", "strong", "fem Q2"}) {
     const auto cell = one("slit: a slot of no width", method);
