@@ -36,4 +36,13 @@ TEST(Penalty, takes_the_smoothing_length_of_the_nearest_of_the_candidates) {
   EXPECT_EQ(weak_form::nearest_smoothing_length(particles, all, {9, 0}), .3);
 }
 
+TEST(Penalty, does_not_leave_the_choice_between_equally_near_particles_to_rounding) {
+  const cloud::Particles<2> particles({{0, 0}, {.3, .1}, {3, 0}}, {.1, .2, .3});
+  const cloud::Particles<2> renumbered({{.3, .1}, {3, 0}, {0, 0}}, {.2, .3, .1});
+  const std::vector<cloud::Index> all{0, 1, 2};
+  for (const double rounding : {-1e-16, 0., 1e-16})
+    for (const auto *cloud : {&particles, &renumbered})
+      EXPECT_EQ(weak_form::nearest_smoothing_length(*cloud, all, {.15 + rounding, .05}), .2) << rounding;
+}
+
 } // namespace

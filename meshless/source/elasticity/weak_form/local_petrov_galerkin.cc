@@ -44,12 +44,18 @@ double penalty_factor(const Parameters &parameters, const Material &material, do
 
 double nearest_smoothing_length(const cloud::Particles<2> &particles, std::span<const cloud::Index> candidates,
                                 const Point2 &x) {
-  const auto distance = [&](cloud::Index j) {
-    return cloud::distance_squared<2>(particles.position(static_cast<std::size_t>(j)), x);
-  };
-  const auto nearest = std::min_element(candidates.begin(), candidates.end(),
-                                        [&](cloud::Index a, cloud::Index b) { return distance(a) < distance(b); });
-  return particles.smoothing_length(static_cast<std::size_t>(*nearest));
+  // Far above what rounding makes of equal distances, far below a difference that matters.
+  constexpr double equal = 1e-9;
+  double least = INFINITY;
+  for (const auto j : candidates)
+    least = std::min(least, cloud::distance_squared<2>(particles.position(static_cast<std::size_t>(j)), x));
+  double length = 0;
+  for (const auto j : candidates) {
+    const auto i = static_cast<std::size_t>(j);
+    if (cloud::distance_squared<2>(particles.position(i), x) <= least * (1 + equal))
+      length = std::max(length, particles.smoothing_length(i));
+  }
+  return length;
 }
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,

@@ -75,7 +75,8 @@ inline constexpr double moderate_penalty = 20;
 /// @param smoothing_length h of the nearest particle, m
 double penalty_factor(const Parameters &parameters, const Material &material, double smoothing_length);
 
-/// h of that of the candidates that is nearest to x.
+/// h of that of the candidates that is nearest to x; of several that are equally near, to a relative 5e-10, the
+/// largest, so that rounding does not choose (the middle point of a rule between a particle and a corner).
 /// @param candidates at least one
 double nearest_smoothing_length(const cloud::Particles<2> &particles, std::span<const cloud::Index> candidates,
                                 const Point2 &x);
