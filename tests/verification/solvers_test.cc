@@ -83,6 +83,23 @@ max_iterations = 2
   }
 }
 
+/// Bit for bit, the levels of ML and incomplete factors alike.
+TEST(Solvers, repeat_to_the_last_bit) {
+  const auto scene = read(head + R"([[method]]
+name = "bicgstab"
+preconditioner = ["thinned+coarse", "ilut", "ml", "ml_unsymmetric"]
+[[method]]
+name = "umfpack"
+ordering = ["amd", "metis"]
+)" + tail);
+  const auto first = run(scene);
+  const auto second = run(scene);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    for (const char *name : {"backward_error", "solver_iterations", "estimated_error"})
+      if (first[i].quantities.contains(name))
+        EXPECT_EQ(first[i].quantities.at(name), second[i].quantities.at(name)) << name_of(first[i]) << ": " << name;
+}
+
 constexpr const char *plate = R"(schema = 1
 title = "keys of the solver"
 benchmark = "plate_with_hole"

@@ -94,6 +94,8 @@ AlgebraicMultigrid::AlgebraicMultigrid(const PlaneMatrix &matrix, std::span<cons
   Teuchos::ParameterList list;
   ML_Epetra::SetDefaults(aggregation == Aggregation::smoothed ? "SA" : "NSSA", list);
   list.set("ML output", 0);
+  // By a norm: other estimates of the largest eigenvalue start at random, and two runs would differ.
+  list.set("eigen-analysis: type", "Anorm");
   list.set("PDE equations", 2);
   list.set("null space: type", "pre-computed");
   list.set("null space: vectors", levels_->modes.data());

@@ -12,7 +12,7 @@
 namespace meshless::linear_algebra {
 
 /// Systems of fewer unknowns are solved as fast by sparse LU. (On the plate with a hole the iteration takes a third of
-/// its time at 376 unknowns, a quarter at 5200, a seventh at 200000.)
+/// its time at 376 unknowns, a quarter at 5200, a ninth at 200000.)
 inline constexpr std::int64_t least_unknowns_to_iterate = 200;
 /// Sparse LU of larger systems has METIS as its ordering: it is as fast as AMD there, with less fill.
 inline constexpr std::int64_t least_unknowns_to_dissect = 40000;
