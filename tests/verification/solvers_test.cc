@@ -96,8 +96,9 @@ ordering = ["amd", "metis"]
   const auto second = run(scene);
   for (std::size_t i = 0; i < first.size(); ++i)
     for (const char *name : {"backward_error", "solver_iterations", "estimated_error"})
-      if (first[i].quantities.contains(name))
+      if (first[i].quantities.contains(name)) {
         EXPECT_EQ(first[i].quantities.at(name), second[i].quantities.at(name)) << name_of(first[i]) << ": " << name;
+      }
 }
 
 constexpr const char *plate = R"(schema = 1
