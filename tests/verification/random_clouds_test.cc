@@ -114,9 +114,11 @@ Outcome solve(const Choice &choice, const RandomCloud &cloud, const std::vector<
     return basis::make_basis<2>(choice.basis, order, kernels::Gauss(order + 2));
   };
   const double radius = choice.order > 2 ? .9 : 1;
+  // An iteration ends at a backward error, not at rounding.
+  const linear_algebra::SolverRequest direct = linear_algebra::SystemSolver::direct;
   const auto solution = [&] {
     if (choice.form == Form::strong)
-      return strong_form::solve(problem, particles, make(choice.order), {});
+      return strong_form::solve(problem, particles, make(choice.order), {}, direct);
     if (choice.form == Form::mixed) {
       mixed_form::Parameters mixed;
       mixed.test_function = kernels::Gauss(radius);
@@ -125,6 +127,7 @@ Outcome solve(const Choice &choice, const RandomCloud &cloud, const std::vector<
       return mixed_form::solve(problem, particles, make(choice.order), make(choice.order - 1), mixed);
     }
     weak_form::Parameters weak;
+    weak.solver = direct;
     weak.derivatives = choice.form == Form::weak2 ? DerivativeRule::differentiated : DerivativeRule::direct;
     weak.test_function = kernels::Gauss(radius);
     if (choice.form == Form::heaviside)
