@@ -17,6 +17,9 @@ std::vector<HardCase> penalty_cases();
 /// Bars and gases in time, by scenes of the benchmarks.
 /// @param catalogue kept by reference
 std::vector<HardCase> transient_cases(const study::Catalogue &catalogue);
+std::vector<HardCase> blast_wave_cases();
+/// Energy over many steps; the catalogue is kept by reference.
+std::vector<HardCase> long_run_cases(const study::Catalogue &catalogue);
 
 /// The one table of hard cases, family by family.
 std::vector<HardCase> case_table(const study::Catalogue &catalogue);

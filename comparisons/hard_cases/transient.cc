@@ -1,69 +1,12 @@
 #include "comparisons/hard_cases/case_table.h"
 
-#include "comparisons/scene/reader.h"
-#include "comparisons/study/run_scene.h"
-
-#include "meshless/dynamics/violation.h"
+#include "comparisons/hard_cases/scene_case.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
-#include <stdexcept>
 
 namespace comparisons::hard_cases {
-
-namespace {
-
-/// A scene of one method; a run that its own guards end is a refusal with time, particle and reason.
-Measurement run(const study::Catalogue &catalogue, const std::string &text,
-                const std::function<double(const reports::Cell &)> &error) {
-  const auto read = scene::read_scene_text(text, "hard case", {}, study::vocabulary_of(catalogue));
-  if (!read.scene) {
-    for (const auto &finding : read.diagnostics.all())
-      throw std::logic_error(finding.key + ": " + finding.message);
-    throw std::logic_error("the scene is not valid");
-  }
-  const auto &scene = *read.scene;
-  const auto experiment = study::find_benchmark(catalogue, scene.benchmark)
-                              .make_experiment(scene, scene.problems.front(), catalogue.methods);
-  reports::Cell cell;
-  try {
-    experiment->run(scene.methods.front(), scene.levels.front(), true, {}, cell);
-  } catch (const meshless::dynamics::Violation &violation) {
-    throw NamedRefusal(violation.what());
-  } catch (const std::exception &failure) {
-    // Explicit finite elements and gas schemes name time and cell in words of their own.
-    const std::string reason = failure.what();
-    if (reason.find("t = ") != std::string::npos || reason.find("time") != std::string::npos)
-      throw NamedRefusal(reason);
-    throw;
-  }
-  Measurement result{error(cell), {}, cell.warnings};
-  return result;
-}
-
-double value_of(const std::map<std::string, double> &values, const char *name) {
-  const auto found = values.find(name);
-  return found == values.end() ? std::nan("") : found->second;
-}
-
-std::string bar(const std::string &method, const std::string &keys, const std::string &problem, const std::string &time,
-                int level) {
-  return fmt::format("schema = 1\ntitle = \"hard case\"\nbenchmark = \"bar_wave\"\n[problem]\n{}\n[[method]]\nname = "
-                     "\"{}\"\n{}\n[time]\n{}\n[study]\nlevels = [{}]\n",
-                     problem, method, keys, time, level);
-}
-
-std::string tube(const std::string &method, const std::string &problem, const std::string &material,
-                 const std::string &time) {
-  return fmt::format(
-      "schema = 1\ntitle = \"hard case\"\nbenchmark = \"shock_tube\"\n[problem]\n{}\n{}[[method]]\nname = "
-      "\"{}\"\n[time]\n{}\n[study]\nlevels = [400]\n",
-      problem, material, method, time);
-}
-
-} // namespace
 
 std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
   std::vector<HardCase> cases;
@@ -80,8 +23,9 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
          {"ssph", "fem"},
          true,
          [&catalogue, h, stress](const std::string &m) {
-           return run(catalogue, bar(m, m == "ssph" ? fmt::format("smoothing_length = {}", h) : "", "", "", 200),
-                      stress);
+           return measure_scene(catalogue,
+                                bar_scene(m, m == "ssph" ? fmt::format("smoothing_length = {}", h) : "", "", "", 200),
+                                stress);
          }});
   for (const double factor : {.5, .99, 1.01, 10.})
     cases.push_back({"time step",
@@ -93,7 +37,8 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
                      {"fem"},
                      true,
                      [&catalogue, factor, stress](const std::string &m) {
-                       return run(catalogue, bar(m, "", "", fmt::format("cfl = {}", factor), 200), stress);
+                       return measure_scene(catalogue, bar_scene(m, "", "", fmt::format("cfl = {}", factor), 200),
+                                            stress);
                      }});
   cases.push_back({"time step",
                    "gas, dt = 10 of the limit",
@@ -104,8 +49,9 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
                    {"sph"},
                    true,
                    [&catalogue](const std::string &m) {
-                     return run(catalogue, tube(m, "", "", "cfl = 10.0"),
-                                [](const reports::Cell &cell) { return value_of(cell.errors, "density_l1"); });
+                     return measure_scene(
+                         catalogue, tube_scene(m, "", "", "cfl = 10.0"),
+                         [](const reports::Cell &cell) { return value_of(cell.errors, "density_l1"); });
                    }});
   for (const auto *positions : {"reference", "current"})
     cases.push_back({"Swegle",
@@ -117,10 +63,11 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
                      {"sph"},
                      true,
                      [&catalogue, positions](const std::string &m) {
-                       return run(catalogue,
-                                  bar(m, fmt::format("positions = \"{}\"", positions),
-                                      "case = \"stretched\"\nstretch = 0.01", "end = \"67 us\"\ncfl = 0.3", 60),
-                                  [](const reports::Cell &cell) { return value_of(cell.quantities, "growth") - 1; });
+                       return measure_scene(
+                           catalogue,
+                           bar_scene(m, fmt::format("positions = \"{}\"", positions),
+                                     "case = \"stretched\"\nstretch = 0.01", "end = \"67 us\"\ncfl = 0.3", 60),
+                           [](const reports::Cell &cell) { return value_of(cell.quantities, "growth") - 1; });
                      }});
   struct Gas {
     const char *name, *problem, *material, *time;
@@ -145,26 +92,20 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
        "1.0\nright_velocity = 1.0\nwindow = 0.25",
        "", "end = 0.06\ncfl = 0.3", 1, .05}};
   for (const auto &gas : gases)
-    cases.push_back(
-        {"gas",
-         gas.name,
-         "a Riemann problem on 400 points; mean error of the density over its largest value",
-         "the exact solution of the Riemann problem",
-         gas.threshold,
-         "shocks are smeared over a few smoothing lengths, wall heating remains",
-         {"sph", "fem"},
-         true,
-         [&catalogue, gas](const std::string &m) {
-           return run(catalogue, tube(m, gas.problem, gas.material, gas.time),
-                      [gas](const reports::Cell &cell) { return value_of(cell.errors, "density_l1") / gas.scale; });
-         }});
-  const auto plate = [&](const std::string &m, const std::string &keys, const std::string &rest) {
-    const bool element = m.starts_with("fem ");
-    return fmt::format(
-        "schema = 1\ntitle = \"hard case\"\nbenchmark = \"plate_vibration\"\n[problem]\n{}\n[[method]]\nname = "
-        "\"{}\"\n{}{}\n",
-        keys, element ? "fem" : m, element ? "element = \"" + m.substr(4) + "\"\n" : "", rest);
-  };
+    cases.push_back({"gas",
+                     gas.name,
+                     "a Riemann problem on 400 points; mean error of the density over its largest value",
+                     "the exact solution of the Riemann problem",
+                     gas.threshold,
+                     "shocks are smeared over a few smoothing lengths, wall heating remains",
+                     {"sph", "fem"},
+                     true,
+                     [&catalogue, gas](const std::string &m) {
+                       return measure_scene(catalogue, tube_scene(m, gas.problem, gas.material, gas.time),
+                                            [gas](const reports::Cell &cell) {
+                                              return value_of(cell.errors, "density_l1") / gas.scale;
+                                            });
+                     }});
   for (const double jitter : {0., .25})
     cases.push_back(
         {"zero modes",
@@ -177,53 +118,13 @@ std::vector<HardCase> transient_cases(const study::Catalogue &catalogue) {
          {"strong", "weak1", "weak2", "fem Q1", "fem Q2"},
          jitter == 0, // hourglasses live on grids
 
-         [&catalogue, jitter, plate](const std::string &m) {
-           return run(catalogue, plate(m, fmt::format("jitter = {}", jitter), "[study]\nlevels = [\"13x7\"]"),
-                      [](const reports::Cell &cell) {
-                        return value_of(cell.quantities, "rigid_over_first") +
-                               value_of(cell.errors, "frequency_1_relative");
-                      });
+         [&catalogue, jitter](const std::string &m) {
+           return measure_scene(
+               catalogue, plate_scene(m, fmt::format("jitter = {}", jitter), "[study]\nlevels = [\"13x7\"]"),
+               [](const reports::Cell &cell) {
+                 return value_of(cell.quantities, "rigid_over_first") + value_of(cell.errors, "frequency_1_relative");
+               });
          }});
-  cases.push_back(
-      {"long runs",
-       "plate, complex eigenvalues",
-       "a step load on a plate of 21 x 5 points for ten periods, mean acceleration; error of the energy",
-       "the energy is the work; an operator whose motions grow ends the run by name",
-       .05,
-       "5 %: mean acceleration conserves the energy of a symmetric operator to rounding",
-       {"weak1", "weak2", "fem Q2"},
-       true,
-       [&catalogue, plate](const std::string &m) {
-         return run(catalogue,
-                    plate(m, "supports = \"left\"\nlength = \"1 m\"\nwidth = \"0.2 m\"",
-                          "[time]\nend = \"20 ms\"\ncfl = 4.0\n[study]\nanalysis = \"transient\"\nlevels = [\"21x5\"]"),
-                    [](const reports::Cell &cell) { return std::abs(value_of(cell.errors, "energy_relative")); });
-       }});
-  cases.push_back({"long runs",
-                   "bar, complex eigenvalues",
-                   "the pulse in a bar with the cubic spline at h = 2 D, whose operator has complex eigenvalues",
-                   "an end by name before the first step",
-                   .1,
-                   "nothing may come out",
-                   {"ssph"},
-                   true,
-                   [&catalogue, stress](const std::string &m) {
-                     return run(catalogue, bar(m, "kernel = \"cubic_spline\"\nsmoothing_length = 2.0", "", "", 200),
-                                stress);
-                   }});
-  cases.push_back({"long runs",
-                   "bar, 1e6 steps",
-                   "the pulse reflected in 50 points, a million steps; error of the energy",
-                   "the energy stays",
-                   .05,
-                   "5 %: central differences conserve a modified energy",
-                   {"ssph", "fem"},
-                   false,
-                   [&catalogue](const std::string &m) {
-                     return run(catalogue, bar(m, "", "", "end = \"0.32 s\"", 50), [](const reports::Cell &cell) {
-                       return std::abs(value_of(cell.quantities, "energy_over_work") - 1);
-                     });
-                   }});
   return cases;
 }
 

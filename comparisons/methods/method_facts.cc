@@ -97,7 +97,7 @@ void add_shape_functions(const Prepared &p, bool differentiated, std::span<const
   double n_functions = 0;
   evaluation.visit(points, {.value = true}, [&](const auto &group) {
     for (Index i = 0; i < group.points.size(); ++i)
-      for (Index j = 0; j < group.candidates.size(); ++j)
+      for (Index j = 0; j < group.n_neighbours(i); ++j)
         n_functions += group.values.value(j)[i] != 0 ? 1 : 0;
   });
   const auto n = static_cast<double>(points.size());

@@ -84,9 +84,21 @@ void ParticleField::evaluate(std::string_view field, std::span<const std::array<
 
 std::vector<double> ParticleField::penalty(std::span<const std::array<double, 2>> points) const {
   std::vector<double> values;
-  if (!prepared_.penalties.empty())
-    for (const auto &point : points)
-      values.push_back(prepared_.penalties[solution_.surroundings().region_of(point)]);
+  if (!prepared_.weak)
+    return values;
+  const auto &particles = solution_.particles();
+  const meshless::cloud::CandidateSearch<2> search(particles, prepared_.basis->support());
+  std::vector<meshless::cloud::Index> candidates;
+  for (const auto &point : points) {
+    const std::size_t region = solution_.surroundings().region_of(point);
+    search.collect(point, 0, candidates);
+    std::erase_if(candidates, [&](auto j) {
+      return static_cast<std::size_t>(particles.region(static_cast<std::size_t>(j))) != region;
+    });
+    values.push_back(elasticity::weak_form::penalty_factor(
+        *prepared_.weak, solution_.surroundings().material(region),
+        elasticity::weak_form::nearest_smoothing_length(particles, candidates, point)));
+  }
   return values;
 }
 
@@ -102,7 +114,7 @@ std::map<std::string, std::vector<double>> ParticleField::own_figures() const {
   std::vector<double> n_neighbours, regularity;
   for (std::size_t i = 0; i < particles.size(); ++i)
     evaluation.visit(particles.positions().subspan(i, 1), {.value = true}, [&](const auto &group) {
-      n_neighbours.push_back(static_cast<double>(group.regularity.n_neighbours));
+      n_neighbours.push_back(static_cast<double>(group.n_neighbours(0)));
       regularity.push_back(group.regularity.smallest_pivot_ratio);
     });
   return {{"smoothing_length", {particles.smoothing_lengths().begin(), particles.smoothing_lengths().end()}},

@@ -36,7 +36,12 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
   weak.integration = parameters.text("quadrature") == "consistent" ? elasticity::weak_form::IntegrationRule::consistent
                                                                    : elasticity::weak_form::IntegrationRule::paper;
   weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
-  weak.penalty = parameters.real("penalty");
+  if (parameters.has("penalty"))
+    weak.penalty = parameters.real("penalty");
+  else if (!p.regular) {
+    weak.penalty = elasticity::weak_form::moderate_penalty;
+    weak.penalty_length = elasticity::weak_form::PenaltyLength::smoothing;
+  }
   weak.characteristic_length = request.statement.characteristic_length;
   weak.solver = solver_request(request.parameters);
   return weak;
@@ -96,9 +101,7 @@ std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
   try {
     auto p = prepare(request, form);
     if (form == Form::weak1 || form == Form::weak2 || form == Form::hybrid)
-      for (const auto &region : p.problem.regions)
-        p.penalties.push_back(
-            elasticity::weak_form::penalty_factor(weak_parameters(request, form, p), region.material));
+      p.weak = weak_parameters(request, form, p);
     auto solution = solve_form(request, form, p);
     auto warnings = forewarnings(request, form, p.regular);
     return std::make_unique<ParticleField>(std::move(solution), std::move(p), std::move(warnings));

@@ -6,8 +6,10 @@
 #include "meshless/basis/shape_functions.h"
 #include "meshless/cloud/particles.h"
 #include "meshless/elasticity/plane_problem.h"
+#include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 
 #include <memory>
+#include <optional>
 
 namespace comparisons::methods {
 
@@ -20,9 +22,8 @@ struct Prepared {
   double test_radius = 0;
   std::size_t n_enlarged = 0;
   double largest_factor = 1;
-  /// alpha of every region, Pa/m, with which a weak form holds the body (weak_form::penalty_factor); empty:
-  /// displacement is prescribed without a penalty.
-  std::vector<double> penalties;
+  /// Of a weak form, which holds the body by a penalty; nothing: by collocation.
+  std::optional<meshless::elasticity::weak_form::Parameters> weak;
   double points_seconds = 0;
   double enlarge_seconds = 0;
 };

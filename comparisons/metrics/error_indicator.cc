@@ -106,6 +106,14 @@ ErrorIndicators error_indicators(const methods::Solution &solution, const proble
   return result;
 }
 
+std::optional<double> effectivity(double indicator, const std::map<std::string, double> &errors) {
+  constexpr double rounding = 1e-12;
+  const auto error = errors.find("stress_l2_relative");
+  if (error == errors.end() || !(error->second > rounding))
+    return {};
+  return indicator / error->second;
+}
+
 std::vector<std::string> doubts(const ErrorIndicators &indicators) {
   std::vector<std::string> result;
   for (const auto &[name, limit, meaning] : limits) {

@@ -129,8 +129,11 @@ public:
       cell.quantities["discrete_force_imbalance"] = *equilibrium.discrete_imbalance;
     const auto indicators = metrics::error_indicators(*solution, problem_->statement(), equilibrium, quadrature.points);
     for (const auto &[name, value] : indicators)
-      if (name != "force_imbalance")
+      if (name != "force_imbalance") {
         cell.quantities[name] = value;
+        if (const auto effectivity = metrics::effectivity(value, cell.errors))
+          cell.quantities[name + "_effectivity"] = *effectivity;
+      }
     for (auto &doubt : metrics::doubts(indicators))
       cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);

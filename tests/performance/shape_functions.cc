@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,32 +70,90 @@ void grouped(benchmark::State &state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-/// Value, first and second derivatives at as many points as there are particles, search included; about 30 neighbours
-/// in the plane, 60 in space. The values are stored in the arrays of the group.
+constexpr basis::Wanted everything{.value = true, .gradient = true, .hessian = true};
+
+/// A support that holds about 30 particles in the plane, 60 in space.
 template <int dim>
-void all_derivatives(benchmark::State &state, const kernels::Kernel &kernel) {
+double smoothing_length(const kernels::Kernel &kernel) {
   const double radius = dim == 2 ? std::sqrt(30 / std::numbers::pi) : std::cbrt(45 / std::numbers::pi);
-  const int side = dim == 2 ? 200 : 34;
-  const auto particles = unit_spacing<dim>(radius / kernels::support_of(kernel), side);
-  const auto basis = basis::make_ssph<dim>(2, kernel);
+  return radius / kernels::support_of(kernel);
+}
+
+/// As many random points as there are particles in a box 3 spacings inside of the cloud.
+template <int dim>
+std::vector<cloud::Point<dim>> points_inside(int side) {
   cloud::Point<dim> low;
   cloud::Point<dim> high;
   low.fill(3);
   high.fill(side - 4);
-  const auto points = sample_clouds::random_points<dim>(particles.size(), low, high, 3);
-  const cloud::CandidateSearch<dim> search(particles, basis->support());
-  const basis::GroupedEvaluation<dim> evaluation(*basis, search);
-  for (auto _ : state)
-    evaluation.visit(points, {.value = true, .gradient = true, .hessian = true},
-                     [](const auto &group) { benchmark::DoNotOptimize(group.values.hessian(0, 0)); });
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+  return sample_clouds::random_points<dim>(static_cast<std::size_t>(std::pow(side - 7, dim)), low, high, 3);
 }
 
-/// The same without search: 16 points at a time around one place, their candidates known.
+/// Value, first and second derivatives at points as sparse as the particles, search included. They are stored in the
+/// arrays of the group.
+template <int dim>
+void all_derivatives(benchmark::State &state, const kernels::Kernel &kernel) {
+  const int side = dim == 2 ? 200 : 40;
+  const auto particles = unit_spacing<dim>(smoothing_length<dim>(kernel), side);
+  const auto basis = basis::make_ssph<dim>(2, kernel);
+  const auto points = points_inside<dim>(side);
+  const cloud::CandidateSearch<dim> search(particles, basis->support());
+  const basis::GroupedEvaluation<dim> evaluation(*basis, search);
+  double n_neighbours = 0;
+  evaluation.visit(points, {}, [&](const auto &group) {
+    for (std::size_t p = 0; p < group.points.size(); ++p)
+      n_neighbours += static_cast<double>(group.n_neighbours(p));
+  });
+  for (auto _ : state)
+    evaluation.visit(points, everything,
+                     [](const auto &group) { benchmark::DoNotOptimize(group.values.hessian(0, 0)); });
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+  state.counters["neighbours"] = n_neighbours / static_cast<double>(points.size());
+}
+
+/// The same without search: the neighbours of every point are known, points follow each other along the curve of
+/// GroupedEvaluation, a pack at a time.
 template <int dim>
 void all_derivatives_at(benchmark::State &state, const kernels::Kernel &kernel) {
-  const double radius = dim == 2 ? std::sqrt(30 / std::numbers::pi) : std::cbrt(45 / std::numbers::pi);
-  const auto particles = unit_spacing<dim>(radius / kernels::support_of(kernel));
+  const int side = dim == 2 ? 31 : 15;
+  const auto particles = unit_spacing<dim>(smoothing_length<dim>(kernel), side);
+  const auto basis = basis::make_ssph<dim>(2, kernel);
+  const cloud::CandidateSearch<dim> search(particles, basis->support());
+  const auto points = points_inside<dim>(side);
+  std::vector<cloud::Point<dim>> sorted;
+  std::vector<std::vector<cloud::Index>> lists;
+  basis::GroupedEvaluation<dim>(*basis, search).visit(points, {}, [&](const auto &group) {
+    for (const std::size_t i : group.points) {
+      sorted.push_back(points[i]);
+      search.collect(points[i], 0, lists.emplace_back());
+    }
+  });
+  const std::vector<std::span<const cloud::Index>> rows(lists.begin(), lists.end());
+  constexpr std::size_t n_lanes = linear_algebra::n_lanes;
+  basis::NeighbourPack<dim> pack;
+  basis::ShapeFunctionValues<dim> values;
+  typename basis::ShapeFunctions<dim>::Workspace workspace;
+  double n_neighbours = 0;
+  double n_slots = 0;
+  for (auto _ : state)
+    for (std::size_t begin = 0; begin < sorted.size(); begin += n_lanes) {
+      const std::size_t n = std::min(n_lanes, sorted.size() - begin);
+      pack.assign(particles, std::span(sorted).subspan(begin, n), std::span(rows).subspan(begin, n));
+      benchmark::DoNotOptimize(basis->evaluate_own(pack, everything, values, workspace));
+      n_slots += static_cast<double>(n * pack.n_slots());
+    }
+  for (const auto &list : lists)
+    n_neighbours += static_cast<double>(list.size());
+  const auto n = static_cast<double>(sorted.size());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(sorted.size()));
+  state.counters["neighbours"] = n_neighbours / n;
+  state.counters["slots"] = n_slots / n / static_cast<double>(state.iterations());
+}
+
+/// Again without search: 16 points at a time around one place that share their candidates.
+template <int dim>
+void all_derivatives_shared(benchmark::State &state, const kernels::Kernel &kernel) {
+  const auto particles = unit_spacing<dim>(smoothing_length<dim>(kernel));
   const auto basis = basis::make_ssph<dim>(2, kernel);
   const cloud::CandidateSearch<dim> search(particles, basis->support());
   cloud::Point<dim> centre;
@@ -115,8 +174,7 @@ void all_derivatives_at(benchmark::State &state, const kernels::Kernel &kernel) 
   for (auto _ : state) {
     batch.assign(std::span<const cloud::Point<dim>>(points));
     candidate_batch.assign(particles, candidates, centre);
-    benchmark::DoNotOptimize(
-        basis->evaluate(batch, candidate_batch, {.value = true, .gradient = true, .hessian = true}, values, workspace));
+    benchmark::DoNotOptimize(basis->evaluate(batch, candidate_batch, everything, values, workspace));
   }
   state.SetItemsProcessed(state.iterations() * 16);
   state.counters["candidates"] = static_cast<double>(candidates.size());
@@ -142,10 +200,16 @@ constexpr auto *all_2d = &all_derivatives<2>;
 constexpr auto *all_3d = &all_derivatives<3>;
 constexpr auto *all_at_2d = &all_derivatives_at<2>;
 constexpr auto *all_at_3d = &all_derivatives_at<3>;
+constexpr auto *all_shared_2d = &all_derivatives_shared<2>;
+constexpr auto *all_shared_3d = &all_derivatives_shared<3>;
 BENCHMARK_CAPTURE(all_at_2d, polynomial, kernels::Quartic());
 BENCHMARK_CAPTURE(all_at_2d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_at_3d, polynomial, kernels::Quartic());
 BENCHMARK_CAPTURE(all_at_3d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(all_shared_2d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_shared_2d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(all_shared_3d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(all_shared_3d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_2d, polynomial, kernels::Quartic())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(all_2d, gauss, kernels::Gauss(3))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(all_3d, polynomial, kernels::Quartic())->Unit(benchmark::kMillisecond);

@@ -113,15 +113,10 @@ TEST(PlateWithHole, displacement_converges_with_the_order_of_the_basis) {
   // the norm of the weight's gradient), and as signs alternate far below.
   for (const auto &cell : cells)
     EXPECT_LE(cell.quantities.at("force_imbalance"), 0.2 * cell.errors.at("stress_l2_relative")) << name_of(cell);
-  // By the discrete equations, stress and penalty, it falls faster than the error of stress.
-  for (const std::string order : {"1", "2", "3", "4"}) {
-    const auto fall = [&](const auto &figure) {
-      return figure(find(cells, "weak1 order=" + order, "188")) / figure(find(cells, "weak1 order=" + order, "5200"));
-    };
-    EXPECT_GE(fall([](const reports::Cell &cell) { return cell.quantities.at("discrete_force_imbalance"); }),
-              fall([](const reports::Cell &cell) { return cell.errors.at("stress_l2_relative"); }))
-        << "order " << order;
-  }
+  // By the discrete equations, stress and penalty, likewise: alpha (u - ubar) is of the size of that error.
+  for (const auto &cell : cells)
+    EXPECT_LE(cell.quantities.at("discrete_force_imbalance"), 0.5 * cell.errors.at("stress_l2_relative"))
+        << name_of(cell);
 }
 
 } // namespace

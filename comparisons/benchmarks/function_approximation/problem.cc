@@ -137,9 +137,9 @@ private:
   }
 
   void add(const typename meshless::basis::GroupedEvaluation<dim>::Group &group, Values<dim> &result) const {
-    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-      const double f = coefficients_[static_cast<std::size_t>(group.candidates[j])];
-      for (std::size_t p = 0; p < group.points.size(); ++p) {
+    for (std::size_t p = 0; p < group.points.size(); ++p)
+      for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+        const double f = coefficients_[static_cast<std::size_t>(group.neighbour(j, p))];
         const std::size_t i = group.points[p];
         result.value[i] += group.values.value(j)[p] * f;
         for (int k = 0; k < dim; ++k)
@@ -148,7 +148,6 @@ private:
           for (int kl = 0; kl < Values<dim>::n_hessian; ++kl)
             result.hessian[i][static_cast<std::size_t>(kl)] += group.values.hessian(kl, j)[p] * f;
       }
-    }
   }
 
   meshless::cloud::Particles<dim> particles_;
@@ -180,8 +179,8 @@ void add_coefficients(const ParticleEstimate<1> &estimate, const Arrangement<1> 
   const std::size_t centre = n / 2;
   const meshless::basis::GroupedEvaluation<1> evaluation(estimate.basis(), estimate.search());
   evaluation.visit({&arrangement.positions[centre], 1}, {.value = true, .gradient = true}, [&](const auto &group) {
-    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-      const auto particle = static_cast<std::size_t>(group.candidates[j]);
+    for (std::size_t j = 0; j < group.n_neighbours(0); ++j) {
+      const auto particle = static_cast<std::size_t>(group.neighbour(j, 0));
       if (particle == centre + 1)
         quantities["c1"] = group.values.value(j)[0] / 12;
       if (particle == centre + 2)
@@ -237,9 +236,9 @@ void write_shape_functions(const ParticleEstimate<1> &estimate, const Hull &hull
   std::vector<std::array<double, 3>> shapes(points.size());
   const meshless::basis::GroupedEvaluation<1> evaluation(estimate.basis(), estimate.search());
   evaluation.visit(points, {.value = true, .gradient = true, .hessian = true}, [&](const auto &group) {
-    for (std::size_t j = 0; j < group.candidates.size(); ++j)
-      if (group.candidates[j] == middle)
-        for (std::size_t p = 0; p < group.points.size(); ++p)
+    for (std::size_t p = 0; p < group.points.size(); ++p)
+      for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
+        if (group.neighbour(j, p) == middle)
           shapes[group.points[p]] = {group.values.value(j)[p], group.values.gradient(0, j)[p],
                                      group.values.hessian(0, j)[p]};
   });

@@ -3,6 +3,8 @@
 #include "meshless/basis/grouped_evaluation.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <stdexcept>
 
 namespace meshless::basis {
@@ -16,13 +18,6 @@ struct Row {
   std::vector<std::int64_t> columns;
   std::vector<double> values;
 };
-
-SparseRows assemble(const std::vector<Row> &rows) {
-  SparseRows matrix(static_cast<std::int64_t>(rows.size()));
-  for (const auto &row : rows)
-    matrix.append_row(row.columns, row.values);
-  return matrix;
-}
 
 /// Makes the row of particle i one of f - f(x_i).
 void subtract_own_value(Row &row, std::int64_t i) {
@@ -76,6 +71,58 @@ SparseRows symmetric_product(const SparseRows &a, const SparseRows &b) {
   return result;
 }
 
+/// Rows of several quantities, in the order in which particles are visited; those of a particle have the same columns.
+template <int dim>
+class VisitedRows {
+public:
+  static constexpr std::size_t n_quantities = 1 + dim + ShapeFunctionValues<dim>::n_hessian;
+
+  explicit VisitedRows(std::size_t n_particles) : rows_(n_particles) {}
+
+  void add(const typename GroupedEvaluation<dim>::Group &group) {
+    for (std::size_t p = 0; p < group.points.size(); ++p) {
+      const std::size_t n = group.n_neighbours(p);
+      const std::size_t first = columns_.size();
+      rows_[group.points[p]] = {first, n};
+      for (std::size_t j = 0; j < n; ++j)
+        columns_.push_back(group.neighbour(j, p));
+      for (std::size_t q = 0; q < n_quantities; ++q)
+        if (const int quantity = static_cast<int>(q); group.values.has(quantity))
+          for (std::size_t j = 0; j < n; ++j)
+            values_[q].push_back(group.values.row(quantity, j)[p]);
+    }
+  }
+
+  /// @param of_difference of f - f(x_i) instead of f
+  SparseRows assemble(std::size_t quantity, bool of_difference) const {
+    SparseRows matrix(static_cast<std::int64_t>(rows_.size()));
+    matrix.reserve(columns_.size());
+    Row row;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto columns = std::span(columns_).subspan(rows_[i].first, rows_[i].size);
+      const auto values = std::span(values_[quantity]).subspan(rows_[i].first, rows_[i].size);
+      if (!of_difference) {
+        matrix.append_row(columns, values);
+        continue;
+      }
+      row.columns.assign(columns.begin(), columns.end());
+      row.values.assign(values.begin(), values.end());
+      subtract_own_value(row, static_cast<std::int64_t>(i));
+      matrix.append_row(row.columns, row.values);
+    }
+    return matrix;
+  }
+
+private:
+  struct Place {
+    std::size_t first = 0;
+    std::size_t size = 0;
+  };
+  std::vector<Place> rows_; ///< of the particles
+  std::vector<std::int64_t> columns_;
+  std::array<std::vector<double>, n_quantities> values_;
+};
+
 } // namespace
 
 template <int dim>
@@ -87,10 +134,9 @@ DerivativeOperators<dim> make_derivative_operators(const ShapeFunctions<dim> &ba
   Wanted direct = wanted;
   direct.hessian = wanted.hessian && !rule.reiterate;
   direct.gradient = wanted.gradient || (wanted.hessian && rule.reiterate);
-  constexpr int n_quantities = 1 + dim + ShapeFunctionValues<dim>::n_hessian;
-  std::vector<std::vector<Row>> rows(n_quantities, std::vector<Row>(particles.size()));
 
   DerivativeOperators<dim> operators;
+  VisitedRows<dim> rows(particles.size());
   const cloud::CandidateSearch<dim> search(particles, basis.support());
   GroupedEvaluation<dim>(basis, search)
       .visit(
@@ -99,29 +145,16 @@ DerivativeOperators<dim> make_derivative_operators(const ShapeFunctions<dim> &ba
             operators.smallest_pivot_ratio =
                 std::min(operators.smallest_pivot_ratio, group.regularity.smallest_pivot_ratio);
             operators.n_indefinite += group.regularity.n_indefinite;
-            for (int quantity = 0; quantity < n_quantities; ++quantity)
-              if (group.values.has(quantity))
-                for (std::size_t p = 0; p < group.points.size(); ++p) {
-                  Row &row = rows[static_cast<std::size_t>(quantity)][group.points[p]];
-                  for (std::size_t j = 0; j < group.candidates.size(); ++j)
-                    if (const double value = group.values.row(quantity, j)[p]; value != 0) {
-                      row.columns.push_back(group.candidates[j]);
-                      row.values.push_back(value);
-                    }
-                }
+            rows.add(group);
           },
           "particle");
   if (wanted.value)
-    operators.value = assemble(rows[0]);
-  for (std::size_t k = 0; k < dim && direct.gradient; ++k) {
-    if (rule.subtract_own_value)
-      for (std::size_t i = 0; i < particles.size(); ++i)
-        subtract_own_value(rows[1 + k][i], static_cast<std::int64_t>(i));
-    operators.gradient.push_back(assemble(rows[1 + k]));
-  }
+    operators.value = rows.assemble(0, false);
+  for (std::size_t k = 0; k < dim && direct.gradient; ++k)
+    operators.gradient.push_back(rows.assemble(1 + k, rule.subtract_own_value));
   if (direct.hessian)
     for (std::size_t kl = 0; kl < ShapeFunctionValues<dim>::n_hessian; ++kl)
-      operators.hessian.push_back(assemble(rows[1 + dim + kl]));
+      operators.hessian.push_back(rows.assemble(1 + dim + kl, false));
   else if (wanted.hessian)
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t l = k; l < dim; ++l)

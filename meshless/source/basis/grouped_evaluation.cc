@@ -1,5 +1,7 @@
 #include "meshless/basis/grouped_evaluation.h"
 
+#include "meshless/cloud/neighbour_collector.h"
+#include "meshless/cloud/radix_sort.h"
 #include "meshless/linear_algebra/floating_point_traps.h"
 
 #include <fmt/format.h>
@@ -13,18 +15,14 @@ namespace meshless::basis {
 
 namespace {
 
-constexpr std::size_t largest_batch = 32;
-/// Points that a cell should hold: two packs fill the lanes and share one search.
-constexpr double aimed_points = 16;
-/// Largest half diagonal of a cell, in units of the mean h: farther points share too few neighbours, and a basis may
-/// take monomials about one place for all of them (weighted_basis.cc).
-constexpr double largest_reach = .99;
-
-/// Bits of a cell's number along an axis, and of the place within the cell.
+constexpr std::size_t n_lanes = linear_algebra::n_lanes;
+/// Points whose neighbours are found together, and the largest diagonal of their box in units of the support's radius:
+/// searches become fewer, and candidates that are looked at in vain more.
+constexpr std::size_t batch_size = 32;
+constexpr double largest_box = 2.5;
+/// Bits of a place along an axis.
 template <int dim>
-constexpr int cell_bits = dim == 3 ? 15 : 21;
-template <int dim>
-constexpr int place_bits = dim == 3 ? 6 : 10;
+constexpr int most_bits = dim == 3 ? 20 : 31;
 
 /// The bits of x, dim - 1 zeros after each: a bit moves by its own number, in halves of halves.
 template <int dim>
@@ -45,20 +43,9 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return x;
 }
 
-/// Points along a Morton curve through square cells: those of a cell follow each other, and any few of them lie close
-/// together.
+/// The points along a Morton curve: any few of them that follow each other lie close together.
 template <int dim>
-struct SortedPoints {
-  std::vector<std::pair<std::uint64_t, std::size_t>> curve; ///< number on the curve, and the point
-  double edge = 0;                                          ///< of a cell, m
-
-  std::uint64_t cell(std::size_t place) const { return curve[place].first >> (dim * place_bits<dim>); }
-};
-
-/// Cells are numbered from the corner of the bounding box; beyond the last number they share it, and their points may
-/// then be far from each other.
-template <int dim>
-SortedPoints<dim> sort_points(std::span<const cloud::Point<dim>> points, double mean_h) {
+std::vector<std::size_t> sort_points(std::span<const cloud::Point<dim>> points, double mean_h) {
   cloud::Point<dim> low = points[0];
   cloud::Point<dim> high = points[0];
   for (const auto &x : points)
@@ -66,125 +53,148 @@ SortedPoints<dim> sort_points(std::span<const cloud::Point<dim>> points, double 
       low[k] = std::min(low[k], x[k]);
       high[k] = std::max(high[k], x[k]);
     }
-  double volume = aimed_points / static_cast<double>(points.size()); // if they fill the box evenly
+  double extent = 0;
   for (int k = 0; k < dim; ++k)
-    volume *= std::max(high[k] - low[k], 1e-3 * mean_h);
-  SortedPoints<dim> sorted;
-  sorted.edge =
-      std::clamp(std::pow(volume, 1.0 / dim), .1 * mean_h, 2 * largest_reach / std::sqrt(double(dim)) * mean_h);
-  const double per_edge = std::ldexp(1 / sorted.edge, place_bits<dim>);
-  const double last = std::ldexp(1.0, cell_bits<dim> + place_bits<dim>) - 1;
-  sorted.curve.resize(points.size());
+    extent = std::max(extent, high[k] - low[k]);
+  // Finer than the distance of the points if they lie evenly, and than that of particles; more would cost time to sort.
+  const double wanted = std::max(4 * std::pow(static_cast<double>(points.size()), 1.0 / dim), 2 * extent / mean_h);
+  const double last = std::min(wanted, std::ldexp(1.0, most_bits<dim>) - 1);
+  const double per_extent = extent > 0 ? last / extent : 0;
+  struct Place {
+    std::uint64_t number;
+    std::size_t point;
+  };
+  std::vector<Place> places(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    std::uint64_t key = 0;
+    std::uint64_t number = 0;
     for (int k = 0; k < dim; ++k)
-      key |= spread_bits<dim>(static_cast<std::uint64_t>(std::min((points[i][k] - low[k]) * per_edge, last))) << k;
-    sorted.curve[i] = {key, i};
+      number |= spread_bits<dim>(static_cast<std::uint64_t>((points[i][k] - low[k]) * per_extent)) << k;
+    places[i] = {number, i};
   }
-  std::sort(sorted.curve.begin(), sorted.curve.end());
-  return sorted;
+  std::vector<Place> scratch(points.size());
+  cloud::radix_sort(std::span(places), std::span(scratch), [](const Place &place) { return place.number; });
+  std::vector<std::size_t> order;
+  order.reserve(points.size());
+  for (const auto &place : places)
+    order.push_back(place.point);
+  return order;
 }
+
+/// Some points that follow each other on the curve, and their neighbours.
+template <int dim>
+class Batch {
+public:
+  Batch(const cloud::CandidateSearch<dim> &search, CandidateFilter<dim> *filter, double mean_h)
+      : filter_(filter), reach_(search.support() * search.particles().largest_smoothing_length()),
+        largest_diagonal_(largest_box * search.support() * mean_h), collector_(search) {}
+
+  void assign(std::span<const cloud::Point<dim>> points, std::span<const std::size_t> members) {
+    points_.clear();
+    for (const std::size_t i : members)
+      points_.push_back(points[i]);
+    collector_.clear();
+    to_filter_.assign(points_.size(), false);
+    for (std::size_t begin = 0; begin < points_.size();)
+      begin += append_box(begin);
+    lists_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      lists_.push_back(collector_[i]);
+    if (filter_)
+      apply_filter();
+  }
+
+  std::span<const cloud::Point<dim>> points() const { return points_; }
+  std::span<const std::span<const cloud::Index>> lists() const { return lists_; }
+
+private:
+  /// Neighbours of the points from `begin` on that lie in one box.
+  /// @returns how many they are
+  std::size_t append_box(std::size_t begin) {
+    cloud::Point<dim> low = points_[begin];
+    cloud::Point<dim> high = low;
+    std::size_t end = begin + 1;
+    for (; end < points_.size(); ++end) {
+      auto lower = low;
+      auto higher = high;
+      for (int k = 0; k < dim; ++k) {
+        lower[k] = std::min(low[k], points_[end][k]);
+        higher[k] = std::max(high[k], points_[end][k]);
+      }
+      if (cloud::distance_squared<dim>(lower, higher) > largest_diagonal_ * largest_diagonal_)
+        break;
+      low = lower;
+      high = higher;
+    }
+    collector_.append(std::span(points_).subspan(begin, end - begin));
+    if (filter_) {
+      cloud::Point<dim> centre;
+      for (int k = 0; k < dim; ++k)
+        centre[k] = 0.5 * (low[k] + high[k]);
+      const double radius = std::sqrt(cloud::distance_squared<dim>(centre, high));
+      if (filter_->active(centre, radius, radius + reach_))
+        std::fill_n(to_filter_.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, true);
+    }
+    return end - begin;
+  }
+
+  void apply_filter() {
+    filtered_.resize(std::max(filtered_.size(), points_.size()));
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (to_filter_[i]) {
+        filtered_[i].assign(lists_[i].begin(), lists_[i].end());
+        filter_->apply(points_[i], filtered_[i]);
+        lists_[i] = filtered_[i];
+      }
+  }
+
+  CandidateFilter<dim> *filter_;
+  double reach_;            ///< of the largest support, m
+  double largest_diagonal_; ///< of a box, m
+  cloud::NeighbourCollector<dim> collector_;
+  std::vector<cloud::Point<dim>> points_;
+  std::vector<std::span<const cloud::Index>> lists_;
+  std::vector<bool> to_filter_;
+  std::vector<std::vector<cloud::Index>> filtered_;
+};
 
 } // namespace
 
 template <int dim>
+GroupedEvaluation<dim>::GroupedEvaluation(const ShapeFunctions<dim> &basis, const cloud::CandidateSearch<dim> &search,
+                                          CandidateFilter<dim> *filter)
+    : basis_(&basis), search_(&search), filter_(filter) {
+  const auto h = search.particles().smoothing_lengths();
+  mean_h_ = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
+}
+
+template <int dim>
 void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
                                    const Visitor &visitor, const char *noun) const {
-  const auto &particles = search_->particles();
   if (points.empty())
     return;
-  const auto h = particles.smoothing_lengths();
-  const double mean = std::accumulate(h.begin(), h.end(), 0.0) / static_cast<double>(h.size());
-  const auto sorted = sort_points<dim>(points, mean);
-  const double diagonal_squared = dim * sorted.edge * sorted.edge * (1 + 1e-9);
-
-  PointBatch<dim> batch;
-  CandidateBatch<dim> candidate_batch;
+  const auto order = sort_points<dim>(points, mean_h_);
+  Batch<dim> batch(*search_, filter_, mean_h_);
+  NeighbourPack<dim> pack;
   ShapeFunctionValues<dim> values;
   typename ShapeFunctions<dim>::Workspace workspace;
-  std::vector<cloud::Index> candidates;
-  std::vector<cloud::Point<dim>> members;
-  cloud::Point<dim> centre{};
-  const auto evaluate = [&](std::span<const std::size_t> group, std::span<const cloud::Index> taking_part) {
-    members.clear();
-    for (const std::size_t i : group)
-      members.push_back(points[i]);
-    batch.assign(std::span<const cloud::Point<dim>>(members));
-    candidate_batch.assign(particles, taking_part, centre);
-    const auto regularity = [&] {
-      const linear_algebra::FloatingPointTraps traps;
-      return basis_->evaluate(batch, candidate_batch, wanted, values, workspace);
-    }();
-    try {
-      require_regular(regularity, batch, *basis_);
-    } catch (const SingularMomentMatrix &error) {
-      throw SingularMomentMatrix(fmt::format("{} {}: {}", noun, group[regularity.worst_point], error.what()));
-    }
-    visitor(Group{group, taking_part, values, regularity});
-  };
-  std::vector<std::size_t> group;
-  for (std::size_t begin = 0; begin < points.size();) {
-    cloud::Point<dim> low = points[sorted.curve[begin].second];
-    cloud::Point<dim> high = low;
-    group.clear();
-    for (std::size_t place = begin; place < points.size() && group.size() < largest_batch; ++place) {
-      const auto &x = points[sorted.curve[place].second];
-      if (sorted.cell(place) != sorted.cell(begin) ||
-          cloud::distance_squared<dim>(x, points[sorted.curve[begin].second]) > diagonal_squared)
-        break;
-      group.push_back(sorted.curve[place].second);
-      for (int k = 0; k < dim; ++k) {
-        low[k] = std::min(low[k], x[k]);
-        high[k] = std::max(high[k], x[k]);
+  for (std::size_t first = 0; first < order.size(); first += batch_size) {
+    const auto members = std::span(order).subspan(first, std::min(batch_size, order.size() - first));
+    batch.assign(points, members);
+    for (std::size_t begin = 0; begin < members.size(); begin += n_lanes) {
+      const std::size_t n = std::min(n_lanes, members.size() - begin);
+      const auto own = members.subspan(begin, n);
+      pack.assign(search_->particles(), batch.points().subspan(begin, n), batch.lists().subspan(begin, n));
+      const auto regularity = [&] {
+        const linear_algebra::FloatingPointTraps traps;
+        return basis_->evaluate_own(pack, wanted, values, workspace);
+      }();
+      try {
+        require_regular(regularity, pack, *basis_);
+      } catch (const SingularMomentMatrix &error) {
+        throw SingularMomentMatrix(fmt::format("{} {}: {}", noun, own[regularity.worst_point], error.what()));
       }
+      visitor(Group(own, pack, values, regularity));
     }
-    for (int k = 0; k < dim; ++k)
-      centre[k] = 0.5 * (low[k] + high[k]);
-    // Slack of rounding, so that the farthest point of the group is covered.
-    const double radius = std::sqrt(cloud::distance_squared<dim>(centre, high)) + 1e-12 * mean;
-    search_->collect(centre, radius, candidates);
-    begin += group.size();
-    if (filter_ && filter_->active(centre, radius, reach_of(candidates, centre)))
-      evaluate_filtered(points, group, candidates, evaluate);
-    else
-      evaluate(group, candidates);
-  }
-}
-
-template <int dim>
-double GroupedEvaluation<dim>::reach_of(std::span<const cloud::Index> candidates,
-                                        const cloud::Point<dim> &centre) const {
-  double squared = 0;
-  for (const cloud::Index j : candidates)
-    squared = std::max(
-        squared, cloud::distance_squared<dim>(search_->particles().position(static_cast<std::size_t>(j)), centre));
-  return std::sqrt(squared);
-}
-
-/// Points of the group that have the same candidates are evaluated together; `group` is put into that order.
-template <int dim>
-void GroupedEvaluation<dim>::evaluate_filtered(
-    std::span<const cloud::Point<dim>> points, std::span<std::size_t> group, std::span<const cloud::Index> candidates,
-    const std::function<void(std::span<const std::size_t>, std::span<const cloud::Index>)> &evaluate) const {
-  std::vector<std::vector<cloud::Index>> lists;
-  std::vector<std::pair<std::size_t, std::size_t>> list_of; // list and point
-  for (const std::size_t i : group) {
-    std::vector<cloud::Index> own(candidates.begin(), candidates.end());
-    filter_->apply(points[i], own);
-    const auto found = std::find(lists.begin(), lists.end(), own);
-    list_of.emplace_back(found - lists.begin(), i);
-    if (found == lists.end())
-      lists.push_back(std::move(own));
-  }
-  std::sort(list_of.begin(), list_of.end());
-  for (std::size_t k = 0; k < group.size(); ++k)
-    group[k] = list_of[k].second;
-  for (std::size_t begin = 0; begin < group.size();) {
-    std::size_t end = begin + 1;
-    while (end < group.size() && list_of[end].first == list_of[begin].first)
-      ++end;
-    evaluate(group.subspan(begin, end - begin), lists[list_of[begin].first]);
-    begin = end;
   }
 }
 

@@ -1,5 +1,8 @@
 #include "kernel_weights.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace meshless::basis {
 
 namespace {
@@ -11,15 +14,6 @@ using linear_algebra::store;
 
 template <int dim>
 using Offset = std::array<Pack, dim>;
-
-/// V_J G / h_J^dim.
-template <int dim>
-double amount(const CandidateBatch<dim> &candidates, std::size_t j, double normalisation) {
-  double result = normalisation * candidates.volumes()[j];
-  for (int k = 0; k < dim; ++k)
-    result *= candidates.inverse_h()[j];
-  return result;
-}
 
 /// Distance squared over h_J squared of the candidates inside the support of a lane, and which they are. Without a
 /// branch: whether a candidate is a neighbour cannot be foreseen.
@@ -48,22 +42,35 @@ std::size_t find_neighbours(const Offset<dim> &x, const CandidateBatch<dim> &can
   return n_active;
 }
 
+/// Of the slots of a pack; those that a lane has not are outside.
+template <int dim>
+void measure_slots(const NeighbourPack<dim> &pack, double limit, double *squares) {
+  const Pack counts = pack.counts();
+  const Pack scale = pack.scale();
+  for (std::size_t a = 0; a < pack.n_slots(); ++a) {
+    Pack s_squared = 0;
+    for (int k = 0; k < dim; ++k) {
+      const Pack d = load(pack.offset(k) + a * n_lanes);
+      s_squared += d * d;
+    }
+    const Pack to_h = scale * load(pack.inverse_h() + a * n_lanes);
+    s_squared *= to_h * to_h;
+    where(counts <= static_cast<double>(a), s_squared) = limit;
+    store(s_squared, squares + a * n_lanes);
+  }
+}
+
+/// Replaces s^2 in `workspace.weights` by the kernel.
+///
 /// Flattened: the compiler must see the exponential function to compute it once for value, slope and curvature.
-template <int dim, WeightDerivatives derivatives, typename Kernel>
-[[gnu::flatten]] void compute(const Kernel &given, const Weighing &weighing, const Offset<dim> &x,
-                              const CandidateBatch<dim> &candidates,
-                              typename ShapeFunctions<dim>::Workspace &workspace) {
+template <WeightDerivatives derivatives, typename Kernel, typename Workspace>
+[[gnu::flatten]] void compute(const Kernel &given, double limit, std::size_t n_active, Workspace &workspace) {
   const Kernel kernel = given;
-  const double support = kernel.support();
-  const double limit = edge_limit(support, weighing.edge);
   // Arguments stay inside the support, where the kernel holds.
-  const double largest = std::min(limit, support * support);
+  const double largest = std::min(limit, kernel.support() * kernel.support());
   double *weights = workspace.weights.data();
   double *slopes = workspace.slopes.data();
   double *curvatures = workspace.curvatures.data();
-  workspace.active.resize(candidates.size());
-  const std::size_t n_active = find_neighbours<dim>(x, candidates, limit, workspace.active.data(), weights);
-  workspace.active.resize(n_active);
   for (std::size_t a = 0; a < n_active; ++a) {
     Pack s_squared = load(weights + a * n_lanes);
     const auto outside = !(s_squared < limit);
@@ -88,18 +95,51 @@ template <int dim, WeightDerivatives derivatives, typename Kernel>
     }
     keep(slope, slopes);
   }
-  if (!weighing.volumes)
-    return;
-  const double normalisation = kernel.normalisation(dim);
+}
+
+template <typename Workspace>
+void compute(const Weighing &weighing, WeightDerivatives derivatives, double limit, std::size_t n_active,
+             Workspace &workspace) {
+  std::visit(
+      [&](const auto &kernel) {
+        if (derivatives == WeightDerivatives::none)
+          compute<WeightDerivatives::none>(kernel, limit, n_active, workspace);
+        else if (derivatives == WeightDerivatives::first)
+          compute<WeightDerivatives::first>(kernel, limit, n_active, workspace);
+        else
+          compute<WeightDerivatives::second>(kernel, limit, n_active, workspace);
+      },
+      weighing.kernel);
+}
+
+/// Times V_J G / h_J^dim.
+/// @param amount_of V_J and 1 / h_J of neighbour a, of all lanes or one a lane
+template <int dim, typename Workspace, typename AmountOf>
+void multiply_volumes(const Weighing &weighing, WeightDerivatives derivatives, std::size_t n_active,
+                      Workspace &workspace, const AmountOf &amount_of) {
+  const double normalisation = kernels::normalisation_of(weighing.kernel, dim);
   for (std::size_t a = 0; a < n_active; ++a) {
-    const double factor = amount(candidates, static_cast<std::size_t>(workspace.active[a]), normalisation);
-    const auto scale = [&](double *array) { store(load(array + a * n_lanes) * factor, array + a * n_lanes); };
-    scale(weights);
-    if constexpr (derivatives != WeightDerivatives::none)
-      scale(slopes);
-    if constexpr (derivatives == WeightDerivatives::second)
-      scale(curvatures);
+    const auto [volume, inverse_h] = amount_of(a);
+    auto factor = normalisation * volume;
+    for (int k = 0; k < dim; ++k)
+      factor *= inverse_h;
+    const auto scale = [&](std::vector<double> &array) {
+      store(load(&array[a * n_lanes]) * factor, &array[a * n_lanes]);
+    };
+    scale(workspace.weights);
+    if (derivatives != WeightDerivatives::none)
+      scale(workspace.slopes);
+    if (derivatives == WeightDerivatives::second)
+      scale(workspace.curvatures);
   }
+}
+
+template <typename Workspace>
+void make_room(std::size_t n_neighbours, WeightDerivatives derivatives, Workspace &workspace) {
+  const std::size_t n_weights = n_neighbours * n_lanes;
+  workspace.weights.resize(n_weights);
+  workspace.slopes.resize(derivatives == WeightDerivatives::none ? 0 : n_weights);
+  workspace.curvatures.resize(derivatives == WeightDerivatives::second ? n_weights : 0);
 }
 
 } // namespace
@@ -107,16 +147,30 @@ template <int dim, WeightDerivatives derivatives, typename Kernel>
 template <int dim>
 void compute_weights(const Weighing &weighing, const std::array<Pack, dim> &x, const CandidateBatch<dim> &candidates,
                      WeightDerivatives derivatives, typename ShapeFunctions<dim>::Workspace &workspace) {
-  std::visit(
-      [&](const auto &kernel) {
-        if (derivatives == WeightDerivatives::none)
-          compute<dim, WeightDerivatives::none>(kernel, weighing, x, candidates, workspace);
-        else if (derivatives == WeightDerivatives::first)
-          compute<dim, WeightDerivatives::first>(kernel, weighing, x, candidates, workspace);
-        else
-          compute<dim, WeightDerivatives::second>(kernel, weighing, x, candidates, workspace);
-      },
-      weighing.kernel);
+  make_room(candidates.size(), derivatives, workspace);
+  const double limit = edge_limit(kernels::support_of(weighing.kernel), weighing.edge);
+  auto &active = workspace.active;
+  active.resize(candidates.size());
+  active.resize(find_neighbours<dim>(x, candidates, limit, active.data(), workspace.weights.data()));
+  compute(weighing, derivatives, limit, active.size(), workspace);
+  if (weighing.volumes)
+    multiply_volumes<dim>(weighing, derivatives, active.size(), workspace, [&](std::size_t a) {
+      const auto j = static_cast<std::size_t>(active[a]);
+      return std::pair(candidates.volumes()[j], candidates.inverse_h()[j]);
+    });
+}
+
+template <int dim>
+void compute_weights(const Weighing &weighing, const NeighbourPack<dim> &pack, WeightDerivatives derivatives,
+                     typename ShapeFunctions<dim>::Workspace &workspace) {
+  make_room(pack.n_slots(), derivatives, workspace);
+  const double limit = edge_limit(kernels::support_of(weighing.kernel), weighing.edge);
+  measure_slots<dim>(pack, limit, workspace.weights.data());
+  compute(weighing, derivatives, limit, pack.n_slots(), workspace);
+  if (weighing.volumes)
+    multiply_volumes<dim>(weighing, derivatives, pack.n_slots(), workspace, [&](std::size_t a) {
+      return std::pair(pack.volumes(a), load(pack.inverse_h() + a * n_lanes));
+    });
 }
 
 template <int dim>
@@ -138,6 +192,8 @@ std::size_t count_neighbours(const Weighing &weighing, const cloud::Point<dim> &
 #define INSTANTIATE(dim)                                                                                               \
   template void compute_weights<dim>(const Weighing &, const std::array<Pack, dim> &, const CandidateBatch<dim> &,     \
                                      WeightDerivatives, ShapeFunctions<dim>::Workspace &);                             \
+  template void compute_weights<dim>(const Weighing &, const NeighbourPack<dim> &, WeightDerivatives,                  \
+                                     ShapeFunctions<dim>::Workspace &);                                                \
   template std::size_t count_neighbours<dim>(const Weighing &, const cloud::Point<dim> &, const CandidateBatch<dim> &);
 INSTANTIATE(1)
 INSTANTIATE(2)

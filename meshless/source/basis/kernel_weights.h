@@ -26,6 +26,12 @@ void compute_weights(const Weighing &weighing, const std::array<linear_algebra::
                      const CandidateBatch<dim> &candidates, WeightDerivatives derivatives,
                      typename ShapeFunctions<dim>::Workspace &workspace);
 
+/// The same for points with neighbours of their own, slot by slot: 0 where a lane has no neighbour in the slot.
+/// Offsets there are 0.
+template <int dim>
+void compute_weights(const Weighing &weighing, const NeighbourPack<dim> &pack, WeightDerivatives derivatives,
+                     typename ShapeFunctions<dim>::Workspace &workspace);
+
 /// Candidates inside the support at the point.
 template <int dim>
 std::size_t count_neighbours(const Weighing &weighing, const cloud::Point<dim> &x,

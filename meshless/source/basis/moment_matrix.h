@@ -130,7 +130,7 @@ public:
         b[j] -= factor_[i][j] * b[i];
   }
 
-  Vector unit_solution(std::size_t term, double scale) const {
+  Vector unit_solution(std::size_t term, const Pack &scale) const {
     Vector b{};
     b[term] = scale;
     solve(b);

@@ -100,6 +100,7 @@ void tabulate_monomials(const CandidateBatch<dim> &candidates, const cloud::Poin
     std::array<Pack, n> terms;
     Terms::evaluate(d, terms);
     for (std::size_t lane = 0; lane < lanes; ++lane)
+#pragma GCC unroll 8 // one number a turn would cost more than the monomials
       for (std::size_t t = 0; t < n; ++t)
         table.rows[(first + lane) * n + t] = terms[t][lane];
   }

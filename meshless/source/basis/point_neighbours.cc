@@ -7,12 +7,25 @@
 
 namespace meshless::basis {
 
-template <int dim>
-void require_volumes(const CandidateBatch<dim> &candidates) {
-  // A batch without candidates has nothing to weigh; that its point has no neighbours is reported as such.
-  if (candidates.size() > 0 && candidates.volumes() == nullptr)
+namespace {
+
+// Points without candidates have nothing to weigh; that they have no neighbours is reported as such.
+void require_volumes_of(bool nothing_to_weigh, bool has_volumes) {
+  if (!nothing_to_weigh && !has_volumes)
     throw std::invalid_argument("this basis weighs particles with their volumes m / rho, and the cloud has none: give "
                                 "volumes to the particles, or choose ssph or mls without volumes");
+}
+
+} // namespace
+
+template <int dim>
+void require_volumes(const CandidateBatch<dim> &candidates) {
+  require_volumes_of(candidates.size() == 0, candidates.volumes() != nullptr);
+}
+
+template <int dim>
+void require_volumes(const NeighbourPack<dim> &pack) {
+  require_volumes_of(pack.n_slots() == 0, pack.particles().has_volumes());
 }
 
 template <int dim>
@@ -71,6 +84,7 @@ void PointNeighbours<dim>::collect(const kernels::Kernel &kernel, EdgeRule edge,
 
 #define INSTANTIATE(dim)                                                                                               \
   template void require_volumes<dim>(const CandidateBatch<dim> &);                                                     \
+  template void require_volumes<dim>(const NeighbourPack<dim> &);                                                      \
   template struct PointNeighbours<dim>;
 INSTANTIATE(1)
 INSTANTIATE(2)

@@ -88,9 +88,34 @@ void ShapeFunctionValues<dim>::resize(const Wanted &wanted, std::size_t n_candid
 }
 
 template <int dim>
-void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis) {
-  if (regularity.smallest_pivot_ratio > singular_pivot_ratio)
-    return;
+Regularity ShapeFunctions<dim>::evaluate_own(const NeighbourPack<dim> &pack, const Wanted &wanted,
+                                             ShapeFunctionValues<dim> &values, Workspace &workspace) const {
+  values.resize(wanted, pack.n_slots(), linear_algebra::n_lanes);
+  Regularity regularity;
+  auto &single = workspace.one_point;
+  for (std::size_t i = 0; i < pack.size(); ++i) {
+    workspace.own_point.assign(std::span(&pack.point(i), 1));
+    workspace.own_candidates.assign(pack.particles(), pack.list(i), pack.point(i));
+    const auto own = evaluate(workspace.own_point, workspace.own_candidates, wanted, single, workspace);
+    regularity.n_indefinite += own.n_indefinite;
+    if (own.smallest_pivot_ratio < regularity.smallest_pivot_ratio) {
+      regularity.smallest_pivot_ratio = own.smallest_pivot_ratio;
+      regularity.n_neighbours = own.n_neighbours;
+      regularity.worst_point = i;
+    }
+    for (int quantity = 0; quantity < ShapeFunctionValues<dim>::n_quantities; ++quantity)
+      if (values.has(quantity))
+        for (std::size_t a = 0; a < pack.n_slots(); ++a)
+          values.row(quantity, a)[i] = a < pack.list(i).size() ? single.row(quantity, a)[0] : 0;
+  }
+  return regularity;
+}
+
+namespace {
+
+template <int dim>
+[[noreturn]] void throw_singular(const Regularity &regularity, const cloud::Point<dim> &point,
+                                 const ShapeFunctions<dim> &basis) {
   const std::size_t n = regularity.n_neighbours;
   const std::string count = n < basis.n_terms()
                                 ? fmt::format("too few neighbours, {} for {} terms: they", n, basis.n_terms())
@@ -101,14 +126,30 @@ void require_regular(const Regularity &regularity, const PointBatch<dim> &points
   throw SingularMomentMatrix(fmt::format(
       "singular moment matrix at ({:.6g}): {} (smallest pivot ratio {:.1e}); enlarge the support (now {} h), lower "
       "the order, or add particles there",
-      fmt::join(points.point(regularity.worst_point), ", "), cause, regularity.smallest_pivot_ratio, basis.support()));
+      fmt::join(point, ", "), cause, regularity.smallest_pivot_ratio, basis.support()));
+}
+
+} // namespace
+
+template <int dim>
+void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis) {
+  if (!(regularity.smallest_pivot_ratio > singular_pivot_ratio))
+    throw_singular<dim>(regularity, points.point(regularity.worst_point), basis);
+}
+
+template <int dim>
+void require_regular(const Regularity &regularity, const NeighbourPack<dim> &pack, const ShapeFunctions<dim> &basis) {
+  if (!(regularity.smallest_pivot_ratio > singular_pivot_ratio))
+    throw_singular<dim>(regularity, pack.point(regularity.worst_point), basis);
 }
 
 #define INSTANTIATE(dim)                                                                                               \
   template class PointBatch<dim>;                                                                                      \
   template class CandidateBatch<dim>;                                                                                  \
   template class ShapeFunctionValues<dim>;                                                                             \
-  template void require_regular<dim>(const Regularity &, const PointBatch<dim> &, const ShapeFunctions<dim> &);
+  template class ShapeFunctions<dim>;                                                                                  \
+  template void require_regular<dim>(const Regularity &, const PointBatch<dim> &, const ShapeFunctions<dim> &);        \
+  template void require_regular<dim>(const Regularity &, const NeighbourPack<dim> &, const ShapeFunctions<dim> &);
 INSTANTIATE(1)
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -1,8 +1,6 @@
 #include "weighted_basis.h"
 
-#include "moment_matrix.h"
-#include "monomial_table.h"
-#include "neighbour_sums.h"
+#include "weighted_rows.h"
 
 #include <fmt/format.h>
 
@@ -29,65 +27,15 @@ constexpr double refined_for_second_derivatives = .4;
 /// the power 2 m of this distance over the width of the kernel.
 constexpr double largest_offset = 1;
 
-/// Shape functions phi_J = a . p_J W_J with C a = q, from the moments of all neighbours.
-///
-/// The monomials p_J = p(xi_J - x) are about the point; phi_J = p(0)^T C^-1 p_J W_J is differentiated with their centre
-/// held fast, where q and its derivatives are multiples of unit vectors: with C_k = sum p p^T W,k and C_kl = sum p p^T
-/// W,kl
-///   C a_k  = q,k  - C_k a                        phi_J,k  = a_k . p_J W_J + a . p_J W_J,k
-///   C a_kl = q,kl - C_k a_l - C_l a_k - C_kl a   phi_J,kl = a_kl . p_J W_J + a_k . p_J W_J,l + a_l . p_J W_J,k
-///                                                           + a . p_J W_J,kl,
-/// which is Zhang & Batra 2008, (4.12) and (4.13), without derivatives of the monomials. The direct
-/// derivatives are C a = q,k and C a = q,kl alone.
-///
-/// Sums over neighbours are taken about one centre for all points, where the monomials of a neighbour are numbers in a
-/// table (NeighbourSums); moments are moved to the point and coefficients back from it (Translation).
+/// Points that share candidates have their sums taken about one centre, where the monomials of a neighbour are numbers
+/// in a table; moments are moved to the point and coefficients back from it (Translation). Points with neighbours of
+/// their own have monomials about themselves.
 template <int dim, int m>
 class WeightedBasis final : public ShapeFunctions<dim> {
   using Matrix = MomentMatrix<dim, m>;
-  using Sums = NeighbourSums<dim, m>;
-  using Terms = typename Matrix::Terms;
-  using Offset = typename Matrix::Offset;
   using Moments = typename Matrix::Moments;
-  using Vector = typename Matrix::Vector;
   using Values = ShapeFunctionValues<dim>;
   using typename ShapeFunctions<dim>::Workspace;
-  static constexpr int first_hessian = 1 + dim;
-  static constexpr int first_differentiated = 1 + dim + Values::n_hessian;
-
-  /// Term of the second derivative (k, l).
-  static constexpr std::size_t hessian_term(int k, int l) {
-    typename Terms::Exponents exponents{};
-    ++exponents[k];
-    ++exponents[l];
-    return Terms::index_of(exponents);
-  }
-
-  /// What all steps at one pack of points share.
-  struct Place {
-    Sums sums;
-    const double *weights;
-    const CandidateBatch<dim> &candidates;
-    Offset x;
-    Offset offset; ///< of the points from the centre of the table, in units of the scale
-    Values &values;
-    std::size_t first;
-    double scale;
-    double inverse_scale;
-    bool refine;
-
-    double *row(int quantity) const { return values.row(quantity, 0) + first; }
-    std::size_t stride() const { return values.stride(); }
-    Moments moments(const double *weights_) const {
-      auto result = sums.moments(weights_);
-      Translation<dim, 2 * m>::move_moments(offset, result);
-      return result;
-    }
-    Vector about_centre(Vector coefficients) const {
-      Translation<dim, m>::move_coefficients(offset, coefficients);
-      return coefficients;
-    }
-  };
 
 public:
   WeightedBasis(const Weighing &weighing, DerivativeKind kind)
@@ -99,34 +47,60 @@ public:
 
   Regularity evaluate(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates, const Wanted &wanted,
                       Values &values, Workspace &workspace) const override {
-    if (wanted.hessian && m < 2 && kind_ == DerivativeKind::direct)
-      throw std::invalid_argument("second derivatives need a basis of order 2 at least");
+    check_wanted(wanted);
     if (weighing_.volumes)
       require_volumes(candidates);
-    const bool differentiated = kind_ == DerivativeKind::differentiated;
-    const WeightDerivatives derivatives = differentiated && wanted.hessian ? WeightDerivatives::second
-                                          : wanted.differentiated_gradient || (differentiated && wanted.gradient)
-                                              ? WeightDerivatives::first
-                                              : WeightDerivatives::none;
     values.resize(wanted, candidates.size(), points.stride());
-    const std::size_t n_weights = candidates.size() * n_lanes;
-    workspace.weights.resize(n_weights);
-    workspace.slopes.resize(derivatives == WeightDerivatives::none ? 0 : n_weights);
-    workspace.curvatures.resize(derivatives == WeightDerivatives::second ? n_weights : 0);
     Regularity regularity;
     for (std::size_t first = 0; first < points.stride(); first += n_lanes) {
       if (!centre_table(points, first, candidates)) {
         evaluate_points(points, first, candidates, wanted, values, workspace, regularity);
         continue;
       }
-      evaluate_pack(points, candidates, first, wanted, derivatives, values, workspace, regularity);
+      evaluate_pack(points, candidates, first, wanted, values, workspace, regularity);
     }
     if (regularity.smallest_pivot_ratio <= singular_pivot_ratio)
       regularity.n_neighbours = count_neighbours<dim>(weighing_, points.point(regularity.worst_point), candidates);
     return regularity;
   }
 
+  Regularity evaluate_own(const NeighbourPack<dim> &pack, const Wanted &wanted, Values &values,
+                          Workspace &workspace) const override {
+    check_wanted(wanted);
+    if (weighing_.volumes)
+      require_volumes(pack);
+    values.resize(wanted, pack.n_slots(), n_lanes);
+    compute_weights<dim>(weighing_, pack, derivatives_for(wanted), workspace);
+    OwnNeighbours<dim, m> neighbours{.n_slots = pack.n_slots(),
+                                     .offsets = {},
+                                     .inverse_lengths = pack.inverse_h(),
+                                     .scale_lengths = pack.scale(),
+                                     .inverse_scale_lengths = 1 / pack.scale()};
+    for (int k = 0; k < dim; ++k)
+      neighbours.offsets[k] = pack.offset(k);
+    Regularity regularity;
+    write_rows(neighbours, wanted, 0, pack.size(), values, workspace, regularity);
+    if (regularity.smallest_pivot_ratio <= singular_pivot_ratio) {
+      const std::size_t worst = regularity.worst_point;
+      workspace.own_candidates.assign(pack.particles(), pack.list(worst), pack.point(worst));
+      regularity.n_neighbours = count_neighbours<dim>(weighing_, pack.point(worst), workspace.own_candidates);
+    }
+    return regularity;
+  }
+
 private:
+  void check_wanted(const Wanted &wanted) const {
+    if (wanted.hessian && m < 2 && kind_ == DerivativeKind::direct)
+      throw std::invalid_argument("second derivatives need a basis of order 2 at least");
+  }
+
+  bool differentiates(bool wanted) const { return wanted && kind_ == DerivativeKind::differentiated; }
+  WeightDerivatives derivatives_for(const Wanted &wanted) const {
+    return differentiates(wanted.hessian)                                      ? WeightDerivatives::second
+           : wanted.differentiated_gradient || differentiates(wanted.gradient) ? WeightDerivatives::first
+                                                                               : WeightDerivatives::none;
+  }
+
   /// A table of monomials with its centre near the points of the pack; false: they are too far from each other.
   static bool centre_table(const PointBatch<dim> &points, std::size_t first, const CandidateBatch<dim> &candidates) {
     auto &table = candidates.monomials();
@@ -172,50 +146,45 @@ private:
   }
 
   void evaluate_pack(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates, std::size_t first,
-                     const Wanted &wanted, WeightDerivatives derivatives, Values &values, Workspace &workspace,
-                     Regularity &regularity) const {
+                     const Wanted &wanted, Values &values, Workspace &workspace, Regularity &regularity) const {
     const auto &table = candidates.monomials();
-    const double inverse_scale = 1 / candidates.scale();
-    Offset x;
-    Offset offset;
+    SharedNeighbours<dim, m> neighbours{.active = nullptr,
+                                        .n_active = 0,
+                                        .table = table.rows.data(),
+                                        .coordinates = {},
+                                        .inverse_lengths = candidates.inverse_h(),
+                                        .x = {},
+                                        .offset_from_centre = {},
+                                        .scale_length = candidates.scale(),
+                                        .inverse_scale_length = 1 / candidates.scale()};
     for (int k = 0; k < dim; ++k) {
-      x[k] = load(points.coordinate(k) + first);
-      offset[k] = (x[k] - table.centre[k]) * inverse_scale;
+      neighbours.coordinates[k] = candidates.coordinate(k);
+      neighbours.x[k] = load(points.coordinate(k) + first);
+      neighbours.offset_from_centre[k] = (neighbours.x[k] - table.centre[k]) * neighbours.inverse_scale_length;
     }
-    compute_weights<dim>(weighing_, x, candidates, derivatives, workspace);
+    compute_weights<dim>(weighing_, neighbours.x, candidates, derivatives_for(wanted), workspace);
+    neighbours.active = workspace.active.data();
+    neighbours.n_active = workspace.active.size();
     zero_rows(values, first, workspace.active);
-    Place place{.sums = {workspace.active.data(), workspace.active.size(), table.rows.data()},
-                .weights = workspace.weights.data(),
-                .candidates = candidates,
-                .x = x,
-                .offset = offset,
-                .values = values,
-                .first = first,
-                .scale = candidates.scale(),
-                .inverse_scale = inverse_scale,
-                .refine = false};
-    Matrix matrix;
-    const Pack ratios = factorise(matrix, place.moments(place.weights), first, points.size(), workspace, regularity);
-    note_regularity(ratios, first, points.size(), regularity);
-    place.refine = any_of(ratios < (wanted.hessian ? refined_for_second_derivatives : refined_pivot_ratio));
+    write_rows(neighbours, wanted, first, points.size(), values, workspace, regularity);
+  }
 
-    if (wanted.value)
-      write_direct(matrix, place, 0, 1, 0);
-    if (kind_ == DerivativeKind::direct) {
-      if (wanted.gradient)
-        for (int k = 0; k < dim; ++k)
-          write_direct(matrix, place, 1 + static_cast<std::size_t>(k), place.inverse_scale, 1 + k);
-      if constexpr (m >= 2)
-        if (wanted.hessian) {
-          int kl = 0;
-          for (int k = 0; k < dim; ++k)
-            for (int l = k; l < dim; ++l, ++kl)
-              write_direct(matrix, place, hessian_term(k, l),
-                           (k == l ? 2 : 1) * place.inverse_scale * place.inverse_scale, first_hessian + kl);
-        }
-    }
-    if (derivatives != WeightDerivatives::none)
-      write_differentiated(matrix, place, wanted, derivatives == WeightDerivatives::second, workspace);
+  /// From weights in the workspace to the rows of `first` and the following lanes.
+  /// @param n_points of the batch
+  template <typename Neighbours>
+  void write_rows(const Neighbours &neighbours, const Wanted &wanted, std::size_t first, std::size_t n_points,
+                  Values &values, Workspace &workspace, Regularity &regularity) const {
+    const NeighbourSums<dim, m, Neighbours> sums{neighbours};
+    Matrix matrix;
+    const Pack ratios =
+        factorise(matrix, sums.moments(workspace.weights.data()), first, n_points, workspace, regularity);
+    note_regularity(ratios, first, n_points, regularity);
+    const bool refined = any_of(ratios < (wanted.hessian ? refined_for_second_derivatives : refined_pivot_ratio));
+    const WeightedRows<dim, m, Neighbours> rows(sums, matrix, refined, wanted, first, values, workspace);
+    const bool direct = kind_ == DerivativeKind::direct;
+    rows.write_direct(direct && wanted.gradient, direct && wanted.hessian);
+    if (derivatives_for(wanted) != WeightDerivatives::none)
+      rows.write_differentiated(!direct && wanted.gradient, !direct && wanted.hessian);
   }
 
   /// The moment matrix of a kernel with negative values need not be positive definite: where its pivots are
@@ -260,112 +229,6 @@ private:
       regularity.smallest_pivot_ratio = ratio;
       regularity.worst_point = point;
     }
-  }
-
-  /// Writes row `term` of K (2.11), times `scale`.
-  static void write_direct(const Matrix &matrix, const Place &place, std::size_t term, double scale, int quantity) {
-    place.sums.template write<1>({place.about_centre(matrix.unit_solution(term, scale))}, {place.weights},
-                                 place.row(quantity), place.stride());
-    if (place.refine)
-      refine(matrix, place, term, scale, quantity);
-  }
-
-  /// One step of refinement: what the row lacks to reproduce the monomials, sum_J phi_J p_J = e_term
-  /// scale, is measured on the shape functions themselves, whose rounding is that of the result, not
-  /// that of the moment matrix; the correction is added to them for the same reason.
-  static void refine(const Matrix &matrix, const Place &place, std::size_t term, double scale, int quantity) {
-    Vector residual = place.sums.reproduced(place.candidates, place.x, place.row(quantity), place.stride());
-    for (auto &entry : residual)
-      entry = -entry;
-    residual[term] += scale;
-    matrix.solve(residual);
-    place.sums.add(place.about_centre(residual), place.weights, place.row(quantity), place.stride());
-  }
-
-  /// Derivatives of the weights by the point, as the weights themselves: dim first ones, then the second ones.
-  static void differentiate_weights(const Place &place, bool second, Workspace &workspace) {
-    const auto &candidates = place.candidates;
-    const std::size_t n_weights = place.sums.n_active * n_lanes;
-    auto &derivatives = workspace.weight_derivatives;
-    derivatives.resize((dim + (second ? Values::n_hessian : 0)) * n_weights);
-    for (std::size_t a = 0; a < place.sums.n_active; ++a) {
-      const auto j = static_cast<std::size_t>(place.sums.active[a]);
-      const double to_h = candidates.inverse_h()[j] * candidates.inverse_h()[j];
-      const Pack slope = load(&workspace.slopes[a * n_lanes]) * to_h;
-      Offset d;
-      for (int k = 0; k < dim; ++k) {
-        d[k] = candidates.coordinate(k)[j] - place.x[k];
-        // s^2 falls as x moves towards the particle
-        store(-slope * d[k], &derivatives[static_cast<std::size_t>(k) * n_weights + a * n_lanes]);
-      }
-      if (!second)
-        continue;
-      const Pack curvature = load(&workspace.curvatures[a * n_lanes]) * (to_h * to_h);
-      std::size_t kl = dim;
-      for (int k = 0; k < dim; ++k)
-        for (int l = k; l < dim; ++l, ++kl) {
-          Pack value = curvature * d[k] * d[l];
-          if (k == l)
-            value += slope;
-          store(value, &derivatives[kl * n_weights + a * n_lanes]);
-        }
-    }
-  }
-
-  /// Derivatives of the shape function itself; formulas above.
-  void write_differentiated(const Matrix &matrix, const Place &place, const Wanted &wanted, bool second,
-                            Workspace &workspace) const {
-    differentiate_weights(place, second, workspace);
-    const auto derivative = [&](std::size_t which) {
-      return workspace.weight_derivatives.data() + which * place.sums.n_active * n_lanes;
-    };
-    const Vector g = matrix.unit_solution(0, 1);
-    const Vector g_centre = place.about_centre(g);
-    std::array<Moments, dim> moments; // of C_k
-    std::array<Vector, dim> g_k;
-    std::array<Vector, dim> g_k_centre;
-    for (int k = 0; k < dim; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      moments[k] = place.moments(derivative(axis));
-      g_k[k] = Vector{};
-      g_k[k][1 + axis] = place.inverse_scale;
-      Matrix::subtract_product(moments[k], g, g_k[k]);
-      matrix.solve(g_k[k]);
-      g_k_centre[k] = place.about_centre(g_k[k]);
-      const auto write = [&](int quantity) {
-        place.sums.template write<2>({g_k_centre[k], g_centre}, {place.weights, derivative(axis)}, place.row(quantity),
-                                     place.stride());
-        // Its monomials are reproduced as those of the direct derivative: sum_J phi_J,k p_J = e_k.
-        if (place.refine)
-          refine(matrix, place, 1 + axis, place.inverse_scale, quantity);
-      };
-      if (wanted.differentiated_gradient)
-        write(first_differentiated + k);
-      if (kind_ == DerivativeKind::differentiated && wanted.gradient)
-        write(1 + k);
-    }
-    if (!second)
-      return;
-    std::size_t kl = 0;
-    for (int k = 0; k < dim; ++k)
-      for (int l = k; l < dim; ++l, ++kl) {
-        // Order 1 has no such monomial: the second derivative of all its terms is zero.
-        const std::size_t term = m >= 2 ? hessian_term(k, l) : 0;
-        const double unit = m >= 2 ? (k == l ? 2 : 1) / (place.scale * place.scale) : 0;
-        Vector g_kl{};
-        g_kl[term] = unit;
-        Matrix::subtract_product(moments[k], g_k[l], g_kl);
-        Matrix::subtract_product(moments[l], g_k[k], g_kl);
-        Matrix::subtract_product(place.moments(derivative(dim + kl)), g, g_kl);
-        matrix.solve(g_kl);
-        const int quantity = first_hessian + static_cast<int>(kl);
-        place.sums.template write<4>({place.about_centre(g_kl), g_k_centre[k], g_k_centre[l], g_centre},
-                                     {place.weights, derivative(static_cast<std::size_t>(l)),
-                                      derivative(static_cast<std::size_t>(k)), derivative(dim + kl)},
-                                     place.row(quantity), place.stride());
-        if (place.refine)
-          refine(matrix, place, term, unit, quantity);
-      }
   }
 
   Weighing weighing_;

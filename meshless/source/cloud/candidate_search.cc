@@ -1,5 +1,7 @@
 #include "meshless/cloud/candidate_search.h"
 
+#include "meshless/cloud/radix_sort.h"
+
 #include <algorithm>
 
 namespace meshless::cloud {
@@ -15,8 +17,7 @@ constexpr double largest_ratio = 2;
 template <int dim>
 CandidateSearch<dim>::CandidateSearch(const Particles<dim> &particles, double support)
     : particles_(&particles), support_(support) {
-  const auto h = particles.smoothing_lengths();
-  if (particles.largest_smoothing_length() <= largest_ratio * *std::min_element(h.begin(), h.end()))
+  if (particles.largest_smoothing_length() <= largest_ratio * particles.smallest_smoothing_length())
     cells_.emplace(particles.positions(), support * particles.largest_smoothing_length() / 2);
   else
     tree_.emplace(particles.positions());
@@ -36,7 +37,7 @@ void CandidateSearch<dim>::collect(const Point<dim> &centre, double radius, std:
       const double own = support_ * particles_->smoothing_length(particle) + radius;
       return distance_squared<dim>(particles_->position(particle), centre) >= own * own;
     });
-  std::sort(result.begin(), result.end());
+  sort_indices(result, result.size());
 }
 
 template class CandidateSearch<1>;

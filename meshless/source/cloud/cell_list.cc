@@ -1,5 +1,8 @@
 #include "meshless/cloud/cell_list.h"
 
+#include "meshless/cloud/radix_sort.h"
+#include "meshless/linear_algebra/pack.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +12,8 @@ namespace meshless::cloud {
 
 namespace {
 
-/// Particles whose distances are computed at a time, the coordinates of as many behind the last one included.
-constexpr std::size_t block = 32;
+using linear_algebra::Pack;
+constexpr std::size_t n_lanes = linear_algebra::n_lanes;
 
 /// Calls f(row begin, row end) for the cells in the box [low, high], a contiguous run along the
 /// last axis at a time.
@@ -76,9 +79,9 @@ CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
   for (std::size_t c = 1; c < offsets_.size(); ++c)
     offsets_[c] += offsets_[c - 1];
   std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
-  members_.resize(positions.size());
+  members_.resize(positions.size() + n_lanes);
   for (auto &coordinate : sorted_)
-    coordinate.assign(positions.size() + block, std::numeric_limits<double>::infinity());
+    coordinate.assign(positions.size() + n_lanes, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t slot = next[cell_index[i]]++;
     in_order_ = in_order_ && slot == i;
@@ -112,41 +115,40 @@ void CellList<dim>::visit_runs(const Point<dim> &centre, double radius, const Vi
   });
 }
 
-/// Whether a particle is near cannot be foreseen: all slots are written, and those that do not count written over.
-/// @param found room for every slot of the run
+/// @param found room for every slot of the run and a pack beyond
 template <int dim>
 Index *CellList<dim>::write_within(std::size_t begin, std::size_t end, const Point<dim> &centre, double radius_squared,
                                    Index *found) const {
-  std::array<double, block> squares;
-  for (; begin < end; begin += block) {
-    const std::size_t size = std::min(block, end - begin);
-    for (std::size_t i = 0; i < block; ++i) { // of the whole block, in vectors
-      double sum = 0;
-      for (int k = 0; k < dim; ++k) {
-        const double d = sorted_[k][begin + i] - centre[k];
-        sum += d * d;
-      }
-      squares[i] = sum;
+  const Pack lanes([](auto lane) { return static_cast<double>(lane); });
+  for (; begin < end; begin += n_lanes) {
+    Pack squared = 0;
+    for (int k = 0; k < dim; ++k) {
+      const Pack d = linear_algebra::load(sorted_[k].data() + begin) - centre[k];
+      squared += d * d;
     }
-    for (std::size_t i = 0; i < size; ++i) {
-      *found = static_cast<Index>(begin + i);
-      found += squares[i] < radius_squared;
-    }
+    const auto near = squared < radius_squared && lanes < static_cast<double>(end - begin);
+    found = linear_algebra::append_where(near, members_.data() + begin, found);
   }
   return found;
 }
 
+/// Writes the particles within the radius from place n of the row on, without an order.
+/// @returns the place behind the last one; the row may be longer
+template <int dim>
+std::size_t CellList<dim>::find_within(const Point<dim> &centre, double radius, std::size_t n,
+                                       std::vector<Index> &row) const {
+  visit_runs(centre, radius, [&](std::size_t begin, std::size_t end) {
+    const std::size_t needed = n + (end - begin) + n_lanes;
+    if (row.size() < needed)
+      row.resize(2 * needed);
+    n = static_cast<std::size_t>(write_within(begin, end, centre, radius * radius, row.data() + n) - row.data());
+  });
+  return n;
+}
+
 template <int dim>
 void CellList<dim>::append_within(const Point<dim> &centre, double radius, std::vector<Index> &result) const {
-  visit_runs(centre, radius, [&](std::size_t begin, std::size_t end) {
-    const std::size_t n = result.size();
-    result.resize(n + (end - begin));
-    Index *last = write_within(begin, end, centre, radius * radius, result.data() + n);
-    result.resize(static_cast<std::size_t>(last - result.data()));
-    if (!in_order_)
-      for (std::size_t i = n; i < result.size(); ++i)
-        result[i] = members_[static_cast<std::size_t>(result[i])];
-  });
+  result.resize(find_within(centre, radius, result.size(), result));
 }
 
 template <int dim>
@@ -157,20 +159,10 @@ NeighbourLists CellList<dim>::all_within(double radius) const {
   std::vector<Index> indices;
   std::vector<Index> row;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
-    std::size_t n = 0;
-    visit_runs(positions_[i], radius, [&](std::size_t begin, std::size_t end) {
-      if (row.size() < n + (end - begin))
-        row.resize(2 * (n + (end - begin)));
-      Index *last = write_within(begin, end, positions_[i], radius * radius, row.data() + n);
-      n = static_cast<std::size_t>(last - row.data());
-    });
-    const auto found = row.begin() + static_cast<std::ptrdiff_t>(n);
-    if (!in_order_) { // else runs and what they hold come in order
-      for (auto member = row.begin(); member != found; ++member)
-        *member = members_[static_cast<std::size_t>(*member)];
-      std::sort(row.begin(), found);
-    }
-    indices.insert(indices.end(), row.begin(), found);
+    const std::size_t n = find_within(positions_[i], radius, 0, row);
+    if (!in_order_) // else runs and what they hold come in order
+      sort_indices(row, n);
+    indices.insert(indices.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
     offsets.push_back(indices.size());
     if (i + 1 == n_sampled)
       indices.reserve(indices.size() * (positions_.size() + positions_.size() / 10) / n_sampled);

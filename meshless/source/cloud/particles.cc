@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace meshless::cloud {
@@ -61,15 +60,14 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
   for (std::size_t i = 0; i < volumes_.size(); ++i)
     if (!(volumes_[i] > 0) || !std::isfinite(volumes_[i]))
       throw std::invalid_argument(fmt::format("particle {}: its volume {} is not positive", i, volumes_[i]));
-  double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size(); ++i) {
     const double h = smoothing_lengths_[i];
     if (!(h > 0) || !std::isfinite(h))
       throw std::invalid_argument(fmt::format("particle {}: its smoothing length {} is not positive", i, h));
-    smallest = std::min(smallest, h);
+    smallest_smoothing_length_ = std::min(smallest_smoothing_length_, h);
     largest_smoothing_length_ = std::max(largest_smoothing_length_, h);
   }
-  uniform_ = largest_smoothing_length_ <= smallest * (1 + 1e-9);
+  uniform_ = largest_smoothing_length_ <= smallest_smoothing_length_ * (1 + 1e-9);
 }
 
 template <int dim>

@@ -38,8 +38,8 @@ std::array<SparseRows, 3> rows_at(const EquationsOfMotion &equations, std::span<
         own, {.value = true, .gradient = direct, .differentiated_gradient = !direct}, [&](const auto &group) {
           for (std::size_t p = 0; p < group.points.size(); ++p) {
             Row &row = rows[numbers[group.points[p]]];
-            row.columns.assign(group.candidates.begin(), group.candidates.end());
-            for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+            for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+              row.columns.push_back(group.neighbour(j, p));
               row.values[0].push_back(group.values.value(j)[p]);
               for (int k = 0; k < 2; ++k)
                 row.values[static_cast<std::size_t>(1 + k)].push_back(

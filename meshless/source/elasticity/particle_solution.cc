@@ -62,14 +62,14 @@ void ParticleSolution::displacement(std::span<const Point2> points, std::span<Ve
                                     std::span<const int> regions) const {
   visit(*basis_, search_, points, regions, {.value = true},
         [&](const auto &group, std::size_t, std::span<const std::size_t> group_points) {
-          for (const std::size_t i : group_points)
-            values[i] = {0, 0};
-          for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-            const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.candidates[j])];
-            const double *shape = group.values.value(j);
-            for (std::size_t p = 0; p < group_points.size(); ++p)
+          for (std::size_t p = 0; p < group_points.size(); ++p) {
+            Vector2 u{};
+            for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+              const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.neighbour(j, p))];
               for (int k = 0; k < 2; ++k)
-                values[group_points[p]][k] += shape[p] * coefficient[k];
+                u[k] += group.values.value(j)[p] * coefficient[k];
+            }
+            values[group_points[p]] = u;
           }
         });
 }
@@ -83,8 +83,8 @@ void ParticleSolution::stress(std::span<const Point2> points, std::span<Stress2>
           const auto &d = surroundings_->material(region);
           for (std::size_t p = 0; p < group_points.size(); ++p) {
             std::array<double, 4> gradient{}; // u1,1 u1,2 u2,1 u2,2
-            for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-              const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.candidates[j])];
+            for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+              const double *coefficient = &coefficients_[2 * static_cast<std::size_t>(group.neighbour(j, p))];
               for (int k = 0; k < 2; ++k) {
                 const double *row = direct ? group.values.gradient(k, j) : group.values.differentiated_gradient(k, j);
                 gradient[k] += row[p] * coefficient[0];
@@ -132,8 +132,8 @@ void ParticleSolution::pressure(std::span<const Point2> points, std::span<double
         [&](const auto &group, std::size_t, std::span<const std::size_t> group_points) {
           for (std::size_t p = 0; p < group_points.size(); ++p) {
             double sum = 0;
-            for (std::size_t j = 0; j < group.candidates.size(); ++j)
-              sum += group.values.value(j)[p] * pressure_.coefficients[static_cast<std::size_t>(group.candidates[j])];
+            for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
+              sum += group.values.value(j)[p] * pressure_.coefficients[static_cast<std::size_t>(group.neighbour(j, p))];
             values[group_points[p]] = sum;
           }
         });

@@ -40,10 +40,10 @@ inline void reserve_by_first(linear_algebra::SparseRows &matrix, std::size_t n_d
 template <typename Assembler, typename Another>
 void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
                    linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
-  constexpr std::size_t n_first = 4096; // many rows, and few of a large system
+  constexpr std::size_t n_few = 128, n_first = 4096; // many rows, and few of a large system
   if (parallel::threads() == 1) {
     for (std::size_t i = 0; i < n_particles; ++i) {
-      if (i == n_first)
+      if (i == n_few || i == n_first)
         reserve_by_first(matrix, i, n_particles);
       assembler.assemble(i, matrix, right_hand_side);
     }

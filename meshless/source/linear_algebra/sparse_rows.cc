@@ -1,5 +1,7 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 
+#include "meshless/linear_algebra/pack.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +16,18 @@ void SparseRows::reserve(std::size_t n_entries) {
 }
 
 void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<const double> values) {
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    if (values[k] != 0) {
-      columns_.push_back(columns[k]);
-      values_.push_back(values[k]);
-    }
-  offsets_.push_back(static_cast<std::int64_t>(columns_.size()));
+  // Without a branch: zeros are scattered.
+  std::size_t end = columns_.size();
+  columns_.resize(end + columns.size());
+  values_.resize(end + columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    columns_[end] = columns[k];
+    values_[end] = values[k];
+    end += values[k] != 0;
+  }
+  columns_.resize(end);
+  values_.resize(end);
+  offsets_.push_back(static_cast<std::int64_t>(end));
 }
 
 void SparseRows::append_rows(const SparseRows &rows) {
@@ -33,17 +41,26 @@ void SparseRows::append_rows(const SparseRows &rows) {
 std::vector<double> SparseRows::equilibrate_rows() {
   std::vector<double> divisors(static_cast<std::size_t>(n_rows()));
   for (std::size_t row = 0; row < divisors.size(); ++row) {
-    double largest = 0;
-    for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k) {
-      const double entry = std::abs(values_[static_cast<std::size_t>(k)]);
-      if (!std::isfinite(entry))
-        throw std::runtime_error(fmt::format("row {} of the system has an entry that is not finite", row));
-      largest = std::max(largest, entry);
+    const std::span<double> entries(values_.data() + offsets_[row],
+                                    static_cast<std::size_t>(offsets_[row + 1] - offsets_[row]));
+    const std::size_t n_packed = entries.size() / n_lanes * n_lanes;
+    Pack of_lanes = 0, products = 0; // a product with 0 is 0 if the entry is finite, and else NaN
+    for (std::size_t k = 0; k < n_packed; k += n_lanes) {
+      const Pack pack = load(&entries[k]);
+      of_lanes = max(of_lanes, abs(pack));
+      products += 0 * pack;
     }
+    double largest = hmax(of_lanes), product = reduce(products);
+    for (std::size_t k = n_packed; k < entries.size(); ++k) {
+      largest = std::max(largest, std::abs(entries[k]));
+      product += 0 * entries[k];
+    }
+    if (product != 0)
+      throw std::runtime_error(fmt::format("row {} of the system has an entry that is not finite", row));
     if (largest == 0)
       throw std::runtime_error(fmt::format("row {} of the system is zero", row));
-    for (auto k = offsets_[row]; k < offsets_[row + 1]; ++k)
-      values_[static_cast<std::size_t>(k)] /= largest;
+    for (double &entry : entries)
+      entry /= largest;
     divisors[row] = largest;
   }
   return divisors;

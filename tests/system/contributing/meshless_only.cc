@@ -24,9 +24,9 @@ int main() {
     for (std::size_t i = 0; i < group.points.size(); ++i) {
       const auto &x = points[group.points[i]];
       double value = 0, slope = 0, value_sum = 0, slope_sum = 0; // the sums are of |shape functions|
-      for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+      for (std::size_t j = 0; j < group.n_neighbours(i); ++j) {
         const double phi = group.values.value(j)[i], phi_1 = group.values.gradient(0, j)[i];
-        const double f_j = f(particles.position(group.candidates[j]));
+        const double f_j = f(particles.position(group.neighbour(j, i)));
         value += phi * f_j, slope += phi_1 * f_j;
         value_sum += std::abs(phi), slope_sum += std::abs(phi_1);
       }

@@ -142,9 +142,9 @@ std::vector<Estimate> estimates(const basis::ShapeFunctions<2> &shape, const clo
   const basis::GroupedEvaluation<2> evaluation(shape, search);
   evaluation.visit(points, {.value = true, .gradient = true, .hessian = true}, [&](const auto &group) {
     for (std::size_t i = 0; i < group.points.size(); ++i)
-      for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+      for (std::size_t j = 0; j < group.n_neighbours(i); ++j) {
         auto &estimate = result[group.points[i]];
-        const double f_j = f(particles.position(group.candidates[j]));
+        const double f_j = f(particles.position(group.neighbour(j, i)));
         estimate.value += group.values.value(j)[i] * f_j;
         for (int k = 0; k < 2; ++k)
           estimate.gradient[k] += group.values.gradient(k, j)[i] * f_j;

@@ -56,8 +56,8 @@ double ssph(const Wave &wave, const scene::Parameters &method) {
   const std::vector<meshless::cloud::Point<1>> point{{wave.middle()}};
   double result = 0;
   basis::GroupedEvaluation<1>(*shape, search).visit(point, {.gradient = true}, [&](const auto &group) {
-    for (std::size_t j = 0; j < group.candidates.size(); ++j)
-      result += group.values.gradient(0, j)[0] * wave.value(particles.position(group.candidates[j])[0]);
+    for (std::size_t j = 0; j < group.n_neighbours(0); ++j)
+      result += group.values.gradient(0, j)[0] * wave.value(particles.position(group.neighbour(j, 0))[0]);
   });
   return result;
 }

@@ -109,13 +109,12 @@ TEST(GroupedEvaluation, visits_every_point_once) {
   std::vector<int> visits(points.size(), 0);
   std::vector<double> sums(points.size(), 0);
   evaluation.visit(points, {.value = true}, [&](const auto &group) {
-    EXPECT_LE(group.points.size(), 64u);
-    EXPECT_EQ(group.values.n_candidates(), group.candidates.size());
+    EXPECT_LE(group.points.size(), linear_algebra::n_lanes);
     for (std::size_t p = 0; p < group.points.size(); ++p) {
       const std::size_t i = group.points[p];
       ++visits[i];
-      for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-        const auto &xi = particles.position(static_cast<std::size_t>(group.candidates[j]));
+      for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+        const auto &xi = particles.position(static_cast<std::size_t>(group.neighbour(j, p)));
         sums[i] += group.values.value(j)[p] * (1 + xi[0] - 2 * xi[0] * xi[1]);
       }
     }

@@ -4,6 +4,7 @@
 
 #include "meshless/cloud/candidate_search.h"
 #include "meshless/cloud/cell_list.h"
+#include "meshless/cloud/neighbour_collector.h"
 #include "meshless/cloud/point_tree.h"
 
 #include <gtest/gtest.h>
@@ -200,6 +201,39 @@ TYPED_TEST(NeighbourSearch, candidates_are_the_particles_whose_support_reaches_t
         search.collect(centre, radius, found);
         ASSERT_EQ(found, expected);
       }
+  }
+}
+
+TYPED_TEST(NeighbourSearch, neighbours_are_the_particles_whose_support_holds_the_point) {
+  constexpr int dim = TypeParam::value;
+  const auto points = random_points<dim>(300, this->filled(0), this->filled(1), 12);
+  sample_clouds::Uniform random(13);
+  std::vector<double> within_two(points.size());
+  for (double &h : within_two)
+    h = random.between(.04, .07);
+  std::vector<double> varying(points.size());
+  for (double &h : varying)
+    h = random.between(.01, .1);
+  for (const auto &lengths : {std::vector<double>(points.size(), .05), within_two, varying}) {
+    const Particles<dim> particles(points, lengths);
+    const CandidateSearch<dim> search(particles, 3);
+    NeighbourCollector<dim> collector(search);
+    for (int pass = 0; pass < 2; ++pass) { // lists of an earlier pass do not stay
+      std::vector<Point<dim>> centres;
+      collector.clear();
+      for (const std::size_t n : {1, 7, 0, 50}) {
+        const auto box = n == 50 ? this->probes() : random_points<dim>(n, this->filled(.4), this->filled(.6), 14 + n);
+        collector.append(box);
+        centres.insert(centres.end(), box.begin(), box.end());
+      }
+      for (std::size_t i = 0; i < centres.size(); ++i) {
+        std::vector<Index> expected;
+        for (std::size_t j = 0; j < points.size(); ++j)
+          if (distance_squared<dim>(points[j], centres[i]) < 9 * lengths[j] * lengths[j])
+            expected.push_back(static_cast<Index>(j));
+        ASSERT_EQ(std::vector<Index>(collector[i].begin(), collector[i].end()), expected) << i;
+      }
+    }
   }
 }
 

@@ -12,6 +12,8 @@ namespace meshless::basis {
 
 template <int dim>
 class CandidateBatch;
+template <int dim>
+class NeighbourPack;
 
 /// A particle whose support holds the evaluation point x, and its weight W_J V_J there with
 /// W_J = G / h_J^dim W(|xi_J - x| / h_J). Lengths in units of the scale of the monomials.
@@ -44,5 +46,7 @@ struct PointNeighbours {
 /// @throws std::invalid_argument if the candidates have no volumes
 template <int dim>
 void require_volumes(const CandidateBatch<dim> &candidates);
+template <int dim>
+void require_volumes(const NeighbourPack<dim> &pack);
 
 } // namespace meshless::basis

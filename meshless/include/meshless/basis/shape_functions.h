@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshless/basis/dense_lu.h"
+#include "meshless/basis/neighbour_pack.h"
 #include "meshless/basis/point_neighbours.h"
 #include "meshless/basis/taylor_projection.h"
 #include "meshless/cloud/neighbour_lists.h"
@@ -161,6 +162,8 @@ public:
     std::vector<DenseLu> factors;
     std::array<TaylorProjection, 2> projections;
     std::vector<double> numbers;
+    PointBatch<dim> own_point;
+    CandidateBatch<dim> own_candidates;
   };
 
   virtual ~ShapeFunctions() = default;
@@ -169,6 +172,13 @@ public:
   /// meaningless values and are reported in the result; see `require_regular`.
   virtual Regularity evaluate(const PointBatch<dim> &points, const CandidateBatch<dim> &candidates,
                               const Wanted &wanted, ShapeFunctionValues<dim> &values, Workspace &workspace) const = 0;
+
+  /// Shape functions at points with neighbours of their own: row (quantity, a)[i] belongs to neighbour a of point i,
+  /// and is 0 where its list is shorter. The same to rounding as `evaluate` of the points with any candidates.
+  ///
+  /// This one evaluates point by point.
+  virtual Regularity evaluate_own(const NeighbourPack<dim> &pack, const Wanted &wanted,
+                                  ShapeFunctionValues<dim> &values, Workspace &workspace) const;
 
   /// Radius of the support in units of h: candidates must be given up to there.
   virtual double support() const = 0;
@@ -196,5 +206,7 @@ public:
 ///   batch was singular to rounding
 template <int dim>
 void require_regular(const Regularity &regularity, const PointBatch<dim> &points, const ShapeFunctions<dim> &basis);
+template <int dim>
+void require_regular(const Regularity &regularity, const NeighbourPack<dim> &pack, const ShapeFunctions<dim> &basis);
 
 } // namespace meshless::basis

@@ -30,13 +30,14 @@ public:
 
   /// The particles cell by cell. Renumbered so, neighbours lie close to each other in memory, and a list with cells of
   /// the same size leaves them in place.
-  std::span<const Index> order() const { return members_; }
+  std::span<const Index> order() const { return std::span(members_).first(positions_.size()); }
 
 private:
   template <typename Visitor>
   void visit_runs(const Point<dim> &centre, double radius, const Visitor &visit) const;
   Index *write_within(std::size_t begin, std::size_t end, const Point<dim> &centre, double radius_squared,
                       Index *found) const;
+  std::size_t find_within(const Point<dim> &centre, double radius, std::size_t n, std::vector<Index> &row) const;
   std::array<std::ptrdiff_t, dim> cell_of(const Point<dim> &point) const;
 
   std::span<const Point<dim>> positions_;
@@ -44,8 +45,9 @@ private:
   double cell_size_ = 1;
   std::array<std::ptrdiff_t, dim> n_cells_{};
   std::vector<std::size_t> offsets_;
+  /// The particles cell by cell, and their coordinates in this order, so that a cell is read contiguously; a pack of
+  /// others behind the last one.
   std::vector<Index> members_;
-  /// Coordinates in the order of members_, so that a cell is read contiguously.
   std::array<std::vector<double>, dim> sorted_;
   bool in_order_ = true; ///< members_ are 0, 1, 2 ...
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,7 @@ public:
   int region(std::size_t i) const { return regions_.empty() ? 0 : regions_[i]; }
   std::span<const int> regions() const { return regions_; }
   double largest_smoothing_length() const { return largest_smoothing_length_; }
+  double smallest_smoothing_length() const { return smallest_smoothing_length_; }
   /// True if all smoothing lengths are equal to rounding.
   bool uniform() const { return uniform_; }
 
@@ -58,6 +60,7 @@ private:
   std::vector<double> volumes_;
   std::vector<int> regions_;
   double largest_smoothing_length_ = 0;
+  double smallest_smoothing_length_ = std::numeric_limits<double>::infinity();
   bool uniform_ = true;
 };
 

@@ -18,6 +18,40 @@ inline constexpr int n_lanes = static_cast<int>(Pack::size());
 inline Pack load(const double *from) { return Pack(from, std::experimental::element_aligned); }
 inline void store(const Pack &pack, double *to) { pack.copy_to(to, std::experimental::element_aligned); }
 
+/// from[step * index] of every lane's index.
+template <int step>
+inline Pack gather(const double *from, const std::int32_t *index) {
+#ifdef __AVX512F__
+  static_assert(step >= 1 && step <= 3);
+  // With masks of all lanes: of the plain intrinsics g++ 12 warns that they use a variable uninitialised.
+  const __m512i wide = _mm512_maskz_cvtepi32_epi64(0xff, _mm256_loadu_si256(reinterpret_cast<const __m256i *>(index)));
+  __m512i places = wide;
+  for (int i = 1; i < step; ++i)
+    places = _mm512_add_epi64(places, wide);
+  return std::bit_cast<Pack>(_mm512_mask_i64gather_pd(_mm512_setzero_pd(), 0xff, places, from, sizeof(double)));
+#else
+  return Pack([&](auto lane) { return from[std::ptrdiff_t{step} * index[lane]]; });
+#endif
+}
+
+/// Writes the indices of the lanes where the condition holds one after another.
+/// @param to room for those of all lanes
+/// @returns the place behind the last one
+inline std::int32_t *append_where(const Pack::mask_type &condition, const std::int32_t *indices, std::int32_t *to) {
+#ifdef __AVX512VL__
+  const auto mask = std::bit_cast<__mmask8>(condition);
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(indices));
+  _mm256_storeu_si256(reinterpret_cast<__m256i *>(to), _mm256_maskz_compress_epi32(mask, all));
+  return to + std::popcount(mask);
+#else
+  for (int lane = 0; lane < n_lanes; ++lane) {
+    *to = indices[lane];
+    to += condition[lane];
+  }
+  return to;
+#endif
+}
+
 /// Smallest multiple of the number of lanes that holds n points.
 inline constexpr std::size_t padded(std::size_t n) { return (n + n_lanes - 1) / n_lanes * n_lanes; }
 

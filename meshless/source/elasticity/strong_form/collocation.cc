@@ -157,17 +157,18 @@ public:
     const auto &material = problem_.regions[region(particle)].material;
     auto &rows = rows_[particle];
     if (!thermal_.empty() && rows.kind == RowKind::interior) // sigma_ij,j has the gradient of the thermal stress
-      for (std::size_t j = 0; j < group.candidates.size(); ++j)
+      for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
         for (int i = 0; i < 2; ++i)
-          rows.right_hand_side[static_cast<std::size_t>(i)] += material.thermal_modulus() *
-                                                               group.values.gradient(i, j)[p] *
-                                                               thermal_[static_cast<std::size_t>(group.candidates[j])];
+          rows.right_hand_side[static_cast<std::size_t>(i)] +=
+              material.thermal_modulus() * group.values.gradient(i, j)[p] *
+              thermal_[static_cast<std::size_t>(group.neighbour(j, p))];
     const linear_algebra::FloatingPointTraps traps;
-    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
+    entries_[particle].reserve(entries_[particle].size() + group.n_neighbours(p));
+    for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
       if (group.values.value(j)[p] == 0 && group.values.gradient(0, j)[p] == 0 && group.values.gradient(1, j)[p] == 0 &&
           group.values.hessian(0, j)[p] == 0 && group.values.hessian(1, j)[p] == 0)
         continue; // outside the support of this particle
-      Entry entry{2 * std::int64_t{group.candidates[j]}, {}};
+      Entry entry{2 * std::int64_t{group.neighbour(j, p)}, {}};
       for (std::size_t i = 0; i < 2; ++i)
         entry.rows[i] = own_row(rows, material, particle, i, group.values, j, p);
       entries_[particle].push_back(entry);
@@ -184,9 +185,9 @@ public:
   void add_mass(std::size_t particle, std::size_t p, const basis::GroupedEvaluation<2>::Group &group) {
     if (rows_[particle].kind != RowKind::interior)
       return;
-    for (std::size_t j = 0; j < group.candidates.size(); ++j)
+    for (std::size_t j = 0; j < group.n_neighbours(p); ++j)
       if (const double value = group.values.value(j)[p]; value != 0)
-        mass_[particle].emplace_back(2 * std::int64_t{group.candidates[j]}, -densities_[region(particle)] * value);
+        mass_[particle].emplace_back(2 * std::int64_t{group.neighbour(j, p)}, -densities_[region(particle)] * value);
   }
 
   void append_mass_rows(linear_algebra::SparseRows &mass) {
@@ -211,8 +212,8 @@ public:
     const linear_algebra::FloatingPointTraps traps;
     const auto &rows = rows_[particle];
     const auto &material = problem_.regions[rows.other_region].material;
-    for (std::size_t j = 0; j < group.candidates.size(); ++j) {
-      Entry entry{2 * std::int64_t{group.candidates[j]}, {}};
+    for (std::size_t j = 0; j < group.n_neighbours(p); ++j) {
+      Entry entry{2 * std::int64_t{group.neighbour(j, p)}, {}};
       for (std::size_t i = 0; i < 2; ++i) {
         if (rows.kind == RowKind::follows)
           entry.rows[i][i] = -group.values.value(j)[p];

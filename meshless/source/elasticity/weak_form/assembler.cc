@@ -38,8 +38,7 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
         {domain::SubdomainRule(surroundings.boundary(r), parameters.quadrature_points, &surroundings.visibility(r)),
          {},
          {},
-         RegionFilter(surroundings, particles, r),
-         penalty_factor(parameters, surroundings.material(r))});
+         RegionFilter(surroundings, particles, r)});
     auto &region = regions_.back();
     if (consistent)
       region.consistent.emplace(surroundings.boundary(r), surroundings.visibility(r), *parameters.test_function,
@@ -324,16 +323,17 @@ void Assembler::integrate_boundary(const Part &part) {
     for (std::size_t q = 0; q < size; ++q)
       normals_[q] = {quadrature_.boundary_normal[0][part.begin + q], quadrature_.boundary_normal[1][part.begin + q]};
     condition.traction(points_, normals_, fields_);
-    add_to_right_hand_side(part, condition, ConditionKind::traction, 1);
+    weigh_boundary(part);
+    add_to_right_hand_side(condition, ConditionKind::traction);
   }
   if (displacement[0] || displacement[1]) {
-    const double alpha = regions_[region_].alpha;
     condition.displacement(points_, fields_);
-    add_to_right_hand_side(part, condition, ConditionKind::displacement, alpha);
+    weigh_with_penalty(part);
+    add_to_right_hand_side(condition, ConditionKind::displacement);
     seconds.assembly += watch.lap();
     evaluate_basis(coordinates(part, 0), coordinates(part, 1), own_, wanted_gradient(true));
     watch.lap();
-    add_penalty(part, alpha, displacement, own_);
+    add_penalty(1, displacement, own_);
     add_flux(part, surroundings_.material(region_), displacement, own_);
   }
   seconds.assembly += watch.lap();
@@ -351,12 +351,12 @@ void Assembler::integrate_interface(const Part &part) {
     watch.lap();
   };
   if (side.follows) {
-    const double alpha = regions_[region_].alpha;
+    weigh_with_penalty(part);
     evaluate(foreign, {.value = true});
-    add_penalty(part, -alpha, both, foreign);
+    add_penalty(-1, both, foreign);
     seconds.assembly += watch.lap();
     evaluate(own_, wanted_gradient(true));
-    add_penalty(part, alpha, both, own_);
+    add_penalty(1, both, own_);
     add_flux(part, surroundings_.material(region_), both, own_);
   } else {
     evaluate(foreign, wanted_gradient(false));
@@ -365,25 +365,46 @@ void Assembler::integrate_interface(const Part &part) {
   seconds.assembly += watch.lap();
 }
 
-void Assembler::add_to_right_hand_side(const Part &part, const BoundaryCondition &condition, ConditionKind kind,
-                                       double factor) {
-  for (int k = 0; k < 2; ++k)
-    if (condition.kind[k] == kind)
-      for (std::size_t q = 0; q < part.end - part.begin; ++q)
-        right_[k] += factor * quadrature_.boundary_JxW[part.begin + q] * test_[q] * fields_[q][k];
+/// W JxW of the part's points.
+void Assembler::weigh_boundary(const Part &part) {
+  boundary_weights_.resize(part.end - part.begin);
+  for (std::size_t q = 0; q < boundary_weights_.size(); ++q)
+    boundary_weights_[q] = quadrature_.boundary_JxW[part.begin + q] * test_[q];
 }
 
-/// factor int u_i W for the components i.
-void Assembler::add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block) {
+/// alpha W JxW of the part's points.
+void Assembler::weigh_with_penalty(const Part &part) {
+  weigh_boundary(part);
+  const auto &material = surroundings_.material(region_);
+  const auto alpha = [&](std::size_t q) {
+    const Point2 x{quadrature_.boundary_point[0][part.begin + q], quadrature_.boundary_point[1][part.begin + q]};
+    return penalty_factor(parameters_, material, nearest_smoothing_length(particles_, own_.candidates, x));
+  };
+  const bool everywhere = parameters_.penalty_length == PenaltyLength::domain;
+  const double first = alpha(0);
+  for (std::size_t q = 0; q < boundary_weights_.size(); ++q)
+    boundary_weights_[q] *= everywhere || q == 0 ? first : alpha(q);
+}
+
+/// int field_i W, with alpha or without it, for the components of this kind.
+void Assembler::add_to_right_hand_side(const BoundaryCondition &condition, ConditionKind kind) {
+  for (int k = 0; k < 2; ++k)
+    if (condition.kind[k] == kind)
+      for (std::size_t q = 0; q < boundary_weights_.size(); ++q)
+        right_[k] += boundary_weights_[q] * fields_[q][k];
+}
+
+/// sign int alpha u_i W for the components i.
+void Assembler::add_penalty(double sign, const std::array<bool, 2> &components, Block &block) {
   const FloatingPointTraps traps;
   for (std::size_t j = 0; j < block.candidates.size(); ++j) {
     double value = 0;
-    for (std::size_t q = 0; q < part.end - part.begin; ++q)
-      value += quadrature_.boundary_JxW[part.begin + q] * test_[q] * values_.value(j)[q];
+    for (std::size_t q = 0; q < boundary_weights_.size(); ++q)
+      value += boundary_weights_[q] * values_.value(j)[q];
     if (components[0])
-      block.k[0][j] += factor * value;
+      block.k[0][j] += sign * value;
     if (components[1])
-      block.k[3][j] += factor * value;
+      block.k[3][j] += sign * value;
   }
 }
 

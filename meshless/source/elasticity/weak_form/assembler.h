@@ -44,7 +44,6 @@ private:
     UnitDiscTest whole_disc;                       ///< of that rule; empty with the Heaviside function
     std::optional<ConsistentSubdomain> consistent; ///< in place of both
     RegionFilter filter;
-    double alpha;
   };
 
   void place(std::size_t particle);
@@ -68,8 +67,10 @@ private:
   void integrate_part(const Part &part);
   void integrate_boundary(const Part &part);
   void integrate_interface(const Part &part);
-  void add_to_right_hand_side(const Part &part, const BoundaryCondition &condition, ConditionKind kind, double factor);
-  void add_penalty(const Part &part, double factor, const std::array<bool, 2> &components, Block &block);
+  void weigh_boundary(const Part &part);
+  void weigh_with_penalty(const Part &part);
+  void add_to_right_hand_side(const BoundaryCondition &condition, ConditionKind kind);
+  void add_penalty(double sign, const std::array<bool, 2> &components, Block &block);
   void add_flux(const Part &part, const Material &material, const std::array<bool, 2> &components, Block &block);
 
   void add_thermal_flux(const Part &part, const Material &material, const std::array<bool, 2> &components);
@@ -107,6 +108,7 @@ private:
   std::vector<Point2> points_;
   std::vector<Vector2> fields_;
   std::vector<Vector2> normals_;
+  std::vector<double> boundary_weights_; ///< of a part's points
   std::vector<double> thermal_;
   std::vector<std::pair<cloud::Index, std::array<double, 4>>> row_;
   std::vector<std::int64_t> columns_;

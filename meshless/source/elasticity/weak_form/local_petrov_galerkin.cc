@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,8 +36,26 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::P
 
 } // namespace
 
-double penalty_factor(const Parameters &parameters, const Material &material) {
-  return parameters.penalty * material.plane_modulus() / parameters.characteristic_length;
+double penalty_factor(const Parameters &parameters, const Material &material, double smoothing_length) {
+  const double length =
+      parameters.penalty_length == PenaltyLength::domain ? parameters.characteristic_length : smoothing_length;
+  return parameters.penalty * material.plane_modulus() / length;
+}
+
+double nearest_smoothing_length(const cloud::Particles<2> &particles, std::span<const cloud::Index> candidates,
+                                const Point2 &x) {
+  // Far above what rounding makes of equal distances, far below a difference that matters.
+  constexpr double equal = 1e-9;
+  double least = INFINITY;
+  for (const auto j : candidates)
+    least = std::min(least, cloud::distance_squared<2>(particles.position(static_cast<std::size_t>(j)), x));
+  double length = 0;
+  for (const auto j : candidates) {
+    const auto i = static_cast<std::size_t>(j);
+    if (cloud::distance_squared<2>(particles.position(i), x) <= least * (1 + equal))
+      length = std::max(length, particles.smoothing_length(i));
+  }
+  return length;
 }
 
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
