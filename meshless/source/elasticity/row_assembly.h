@@ -27,15 +27,36 @@ struct SolvedRows {
 };
 
 /// Room for all rows, once the first particles have told their length: growing step by step copies the matrix several
-/// times and holds it twice.
-inline void reserve_by_first(linear_algebra::SparseRows &matrix, std::size_t n_done, std::size_t n_particles) {
-  constexpr double margin = 1.05;
-  matrix.reserve(static_cast<std::size_t>(margin * static_cast<double>(matrix.nonzeros()) *
-                                          static_cast<double>(n_particles) / static_cast<double>(n_done)));
+/// times and holds it twice. The first particles often lie along a boundary, where rows are shorter: the longest of
+/// them counts. Room that is not used is never touched.
+inline void reserve_by_longest(linear_algebra::SparseRows &matrix) {
+  const auto n_rows = static_cast<std::size_t>(matrix.n_rows());
+  std::int64_t longest = 0;
+  for (std::size_t row = 0; row < n_rows; ++row)
+    longest = std::max(longest, matrix.offsets()[row + 1] - matrix.offsets()[row]);
+  constexpr double most = 1.3; // times the mean; a single long row says little, and a limit of memory counts room
+  const double mean = static_cast<double>(matrix.nonzeros()) / static_cast<double>(n_rows);
+  matrix.reserve(static_cast<std::size_t>(std::min(static_cast<double>(longest), most * mean) *
+                                          static_cast<double>(matrix.n_columns())));
 }
 
-/// Assembles all rows, by as many threads as are set; the rows are the same for any number of them. `assembler.seconds`
-/// grow by the time that passes, shared between the phases as the threads spent theirs.
+/// Assembles the rows of one particle and divides them, and their right-hand sides, by their largest entries, while
+/// they are in the cache: large systems would pass through memory once more.
+/// @param n_before rows of the whole matrix before this part of it
+template <typename Assembler>
+void assemble_equilibrated(Assembler &assembler, std::size_t particle, std::size_t n_before,
+                           linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+  const std::size_t first = right_hand_side.size();
+  assembler.assemble(particle, matrix, right_hand_side);
+  linear_algebra::Stopwatch watch;
+  for (std::size_t row = first; row < right_hand_side.size(); ++row)
+    right_hand_side[row] /= matrix.equilibrate_row(row, n_before + row);
+  assembler.seconds.assembly += watch.lap();
+}
+
+/// Assembles all rows, each divided by its largest entry, by as many threads as are set; the rows are the same for any
+/// number of them. `assembler.seconds` grow by the time that passes, shared between the phases as the threads spent
+/// theirs.
 /// @param another () -> Assembler, one for each thread more
 template <typename Assembler, typename Another>
 void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
@@ -44,8 +65,8 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
   if (parallel::threads() == 1) {
     for (std::size_t i = 0; i < n_particles; ++i) {
       if (i == n_few || i == n_first)
-        reserve_by_first(matrix, i, n_particles);
-      assembler.assemble(i, matrix, right_hand_side);
+        reserve_by_longest(matrix);
+      assemble_equilibrated(assembler, i, 0, matrix, right_hand_side);
     }
     return;
   }
@@ -60,17 +81,18 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
   parallel::in_ordered_chunks<Rows>(
       n_particles, chunk, parallel::threads(),
       [&](std::size_t begin, std::size_t end) {
+        const auto per_particle = static_cast<std::size_t>(matrix.n_columns()) / n_particles;
         auto &own = assemblers.local();
         Rows rows{linear_algebra::SparseRows(matrix.n_columns()), {}};
         for (std::size_t i = begin; i < end; ++i)
-          own.assemble(i, rows.matrix, rows.right_hand_side);
+          assemble_equilibrated(own, i, begin * per_particle, rows.matrix, rows.right_hand_side);
         return rows;
       },
       [&](const Rows &rows) {
         if (const std::size_t n_done =
                 right_hand_side.size() * n_particles / static_cast<std::size_t>(matrix.n_columns());
             n_done == n_first)
-          reserve_by_first(matrix, n_done, n_particles);
+          reserve_by_longest(matrix);
         matrix.append_rows(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
       });
@@ -98,11 +120,6 @@ LinearSystem assemble_system(Assembler &assembler, const Another &another, std::
   LinearSystem system{linear_algebra::SparseRows(static_cast<std::int64_t>(per_particle * n_particles)), {}};
   system.right_hand_side.reserve(per_particle * n_particles);
   assemble_rows(assembler, another, n_particles, system.matrix, system.right_hand_side);
-  linear_algebra::Stopwatch watch;
-  const auto divisors = system.matrix.equilibrate_rows();
-  for (std::size_t row = 0; row < divisors.size(); ++row)
-    system.right_hand_side[row] /= divisors[row];
-  assembler.seconds.assembly += watch.lap();
   return system;
 }
 

@@ -25,6 +25,7 @@ void check(long status, const char *step) {
 struct SparseLu::Handles {
   void *symbolic = nullptr;
   void *numeric = nullptr;
+  std::vector<SuiteSparse_long> columns; ///< of the matrix, in the width of its offsets, as UMFPACK wants both
   double reciprocal_condition = 0;
   std::size_t bytes = 0;
 
@@ -42,7 +43,8 @@ SparseLu::SparseLu(const SparseRows &matrix, Ordering ordering)
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   // Compressed rows of A are compressed columns of A^T: factorise that and solve with its transpose.
   const auto *offsets = reinterpret_cast<const SuiteSparse_long *>(matrix.offsets().data());
-  const auto *columns = reinterpret_cast<const SuiteSparse_long *>(matrix.columns().data());
+  handles_->columns.assign(matrix.columns().begin(), matrix.columns().end());
+  const auto *columns = handles_->columns.data();
   const double *values = matrix.values().data();
   const SuiteSparse_long n = matrix.n_rows();
 
@@ -79,8 +81,8 @@ void SparseLu::solve(std::span<const double> right_hand_side, std::span<double> 
   if (refinement == Refinement::none)
     control[UMFPACK_IRSTEP] = 0;
   check(umfpack_dl_solve(UMFPACK_At, reinterpret_cast<const SuiteSparse_long *>(matrix_.offsets().data()),
-                         reinterpret_cast<const SuiteSparse_long *>(matrix_.columns().data()), matrix_.values().data(),
-                         solution.data(), right_hand_side.data(), handles_->numeric, control, info),
+                         handles_->columns.data(), matrix_.values().data(), solution.data(), right_hand_side.data(),
+                         handles_->numeric, control, info),
         "solution");
   for (std::size_t i = 0; i < solution.size(); ++i)
     if (!std::isfinite(solution[i]))

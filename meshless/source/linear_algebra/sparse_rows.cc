@@ -6,22 +6,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace meshless::linear_algebra {
+
+SparseRows::SparseRows(std::int64_t n_columns) : n_columns_(n_columns), offsets_(1, 0) {
+  if (n_columns > std::numeric_limits<Column>::max())
+    throw std::invalid_argument(
+        fmt::format("a matrix of {} columns; at most {} are possible", n_columns, std::numeric_limits<Column>::max()));
+}
 
 void SparseRows::reserve(std::size_t n_entries) {
   columns_.reserve(n_entries);
   values_.reserve(n_entries);
 }
 
+void SparseRows::append_row(std::span<const Column> columns, std::span<const double> values) {
+  append(columns, values);
+}
+
 void SparseRows::append_row(std::span<const std::int64_t> columns, std::span<const double> values) {
+  append(columns, values);
+}
+
+template <typename Integer>
+void SparseRows::append(std::span<const Integer> columns, std::span<const double> values) {
   // Without a branch: zeros are scattered.
   std::size_t end = columns_.size();
   columns_.resize(end + columns.size());
   values_.resize(end + columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    columns_[end] = columns[k];
+    columns_[end] = static_cast<Column>(columns[k]);
     values_[end] = values[k];
     end += values[k] != 0;
   }
@@ -40,30 +56,33 @@ void SparseRows::append_rows(const SparseRows &rows) {
 
 std::vector<double> SparseRows::equilibrate_rows() {
   std::vector<double> divisors(static_cast<std::size_t>(n_rows()));
-  for (std::size_t row = 0; row < divisors.size(); ++row) {
-    const std::span<double> entries(values_.data() + offsets_[row],
-                                    static_cast<std::size_t>(offsets_[row + 1] - offsets_[row]));
-    const std::size_t n_packed = entries.size() / n_lanes * n_lanes;
-    Pack of_lanes = 0, products = 0; // a product with 0 is 0 if the entry is finite, and else NaN
-    for (std::size_t k = 0; k < n_packed; k += n_lanes) {
-      const Pack pack = load(&entries[k]);
-      of_lanes = max(of_lanes, abs(pack));
-      products += 0 * pack;
-    }
-    double largest = hmax(of_lanes), product = reduce(products);
-    for (std::size_t k = n_packed; k < entries.size(); ++k) {
-      largest = std::max(largest, std::abs(entries[k]));
-      product += 0 * entries[k];
-    }
-    if (product != 0)
-      throw std::runtime_error(fmt::format("row {} of the system has an entry that is not finite", row));
-    if (largest == 0)
-      throw std::runtime_error(fmt::format("row {} of the system is zero", row));
-    for (double &entry : entries)
-      entry /= largest;
-    divisors[row] = largest;
-  }
+  for (std::size_t row = 0; row < divisors.size(); ++row)
+    divisors[row] = equilibrate_row(row, row);
   return divisors;
+}
+
+double SparseRows::equilibrate_row(std::size_t row, std::size_t name) {
+  const std::span<double> entries(values_.data() + offsets_[row],
+                                  static_cast<std::size_t>(offsets_[row + 1] - offsets_[row]));
+  const std::size_t n_packed = entries.size() / n_lanes * n_lanes;
+  Pack of_lanes = 0, products = 0; // a product with 0 is 0 if the entry is finite, and else NaN
+  for (std::size_t k = 0; k < n_packed; k += n_lanes) {
+    const Pack pack = load(&entries[k]);
+    of_lanes = max(of_lanes, abs(pack));
+    products += 0 * pack;
+  }
+  double largest = hmax(of_lanes), product = reduce(products);
+  for (std::size_t k = n_packed; k < entries.size(); ++k) {
+    largest = std::max(largest, std::abs(entries[k]));
+    product += 0 * entries[k];
+  }
+  if (product != 0)
+    throw std::runtime_error(fmt::format("row {} of the system has an entry that is not finite", name));
+  if (largest == 0)
+    throw std::runtime_error(fmt::format("row {} of the system is zero", name));
+  for (double &entry : entries)
+    entry /= largest;
+  return largest;
 }
 
 void SparseRows::multiply(std::span<const double> x, std::span<double> y) const {

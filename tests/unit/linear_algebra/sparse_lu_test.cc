@@ -67,12 +67,17 @@ double largest(const Vector &v) { return static_cast<double>(v.cwiseAbs().maxCoe
 /// Largest sum of absolute entries of a row.
 double norm(const Matrix &m) { return static_cast<double>(m.cwiseAbs().rowwise().sum().maxCoeff()); }
 
+TEST(SparseRows, refuse_columns_beyond_32_bits) {
+  EXPECT_NO_THROW(SparseRows((std::int64_t{1} << 31) - 1));
+  EXPECT_TRUE(mentions(message_of<std::invalid_argument>([] { SparseRows(std::int64_t{1} << 31); }), {"2147483648"}));
+}
+
 TEST(SparseRows, keep_entries_that_are_not_zero) {
   SparseRows rows(5);
   rows.reserve(10);
   const std::vector<std::int64_t> columns{0, 2, 4};
   rows.append_row(columns, std::vector<double>{1, 0, -3});
-  rows.append_row({}, {});
+  rows.append_row(std::vector<std::int64_t>{}, {});
   rows.append_row(columns, std::vector<double>{-0., 2, 0});
   EXPECT_EQ(rows.n_rows(), 3);
   EXPECT_EQ(rows.n_columns(), 5);

@@ -11,7 +11,7 @@ namespace fem_reference::linear_algebra {
 /// A square matrix of two unknowns a point (2 I and 2 I + 1), compressed rows.
 struct PlaneMatrix {
   std::span<const std::int64_t> offsets;
-  std::span<const std::int64_t> columns;
+  std::span<const std::int32_t> columns;
   std::span<const double> values;
 };
 

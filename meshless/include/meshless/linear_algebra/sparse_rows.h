@@ -7,15 +7,21 @@
 
 namespace meshless::linear_algebra {
 
-/// A sparse matrix built row by row, compressed rows; columns of a row increase.
+/// A sparse matrix built row by row, compressed rows; columns of a row increase. Numbers of columns take 32 bits, since
+/// large matrices are all but limited by the memory that they pass through; rows may have more than 2^31 entries in
+/// all.
 class SparseRows {
 public:
-  explicit SparseRows(std::int64_t n_columns) : n_columns_(n_columns), offsets_(1, 0) {}
+  using Column = std::int32_t;
+
+  /// @throws std::invalid_argument for more than 2^31 - 1 columns
+  explicit SparseRows(std::int64_t n_columns);
 
   void reserve(std::size_t n_entries);
 
   /// Appends a row; entries that are exactly zero are left out.
   /// @param columns increasing
+  void append_row(std::span<const Column> columns, std::span<const double> values);
   void append_row(std::span<const std::int64_t> columns, std::span<const double> values);
 
   /// Appends the rows of a matrix with as many columns.
@@ -25,21 +31,27 @@ public:
   /// strong form mix rows of stiffness, traction and penalty size.
   /// @throws std::runtime_error naming the row if one is zero or not finite
   std::vector<double> equilibrate_rows();
+  /// The same of one row: its divisor.
+  /// @param name number of the row in messages, where these rows are part of a larger matrix
+  double equilibrate_row(std::size_t row, std::size_t name);
 
   std::int64_t n_rows() const { return static_cast<std::int64_t>(offsets_.size()) - 1; }
   std::int64_t n_columns() const { return n_columns_; }
   std::int64_t nonzeros() const { return offsets_.back(); }
   std::span<const std::int64_t> offsets() const { return offsets_; }
-  std::span<const std::int64_t> columns() const { return columns_; }
+  std::span<const Column> columns() const { return columns_; }
   std::span<const double> values() const { return values_; }
 
   /// y = A x
   void multiply(std::span<const double> x, std::span<double> y) const;
 
 private:
+  template <typename Integer>
+  void append(std::span<const Integer> columns, std::span<const double> values);
+
   std::int64_t n_columns_;
   std::vector<std::int64_t> offsets_;
-  std::vector<std::int64_t> columns_;
+  std::vector<Column> columns_;
   std::vector<double> values_;
 };
 

@@ -364,7 +364,7 @@ void Assembler::append_rows(linear_algebra::SparseRows &matrix, std::vector<doub
     columns_.clear();
     entries_.clear();
     for (const auto &[particle, coefficients] : row_) {
-      const std::int64_t first = 3 * std::int64_t{particle};
+      const auto first = 3 * static_cast<linear_algebra::SparseRows::Column>(particle);
       if (columns_.empty() || columns_.back() != first + 2) {
         columns_.insert(columns_.end(), {first, first + 1, first + 2});
         entries_.insert(entries_.end(), 3, 0.0);

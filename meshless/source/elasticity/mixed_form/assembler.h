@@ -90,7 +90,7 @@ private:
   std::vector<Vector2> values_;
   std::vector<Vector2> normals_;
   std::vector<std::pair<cloud::Index, Coefficients>> row_;
-  std::vector<std::int64_t> columns_;
+  std::vector<linear_algebra::SparseRows::Column> columns_;
   std::vector<double> entries_;
 };
 
