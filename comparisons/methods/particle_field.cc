@@ -42,6 +42,8 @@ ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared pre
   record_.linear_solver = names_of(solution_.solver);
   if (solution_.iterations > 0)
     record_.quantities["solver_iterations"] = solution_.iterations;
+  if (solution_.n_repeated > 0)
+    record_.quantities["repeated_rows"] = static_cast<double>(solution_.n_repeated);
   if (solution_.fell_back)
     record_.warnings.push_back("the iteration for the linear system did not converge; solved by sparse LU");
   if (prepared_.n_enlarged > 0) {

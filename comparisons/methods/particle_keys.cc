@@ -141,6 +141,12 @@ std::vector<Declaration> weak_declarations() {
            .default_value = std::int64_t{10},
            .meaning = "nG: radial points; 4 nG in the angle, nG on a boundary part, nG + 2 on the circle of "
                       "heaviside; without effect with quadrature = consistent"},
+          {.name = "repeated_rows",
+           .type = Type::choice,
+           .choices = {"copied", "computed"},
+           .default_value = "copied",
+           .meaning = "copied: rows of particles that lie like another one, as on a grid most do, are taken from it, "
+                      "equal to rounding; computed: all by their own quadrature, to time what particles anywhere take"},
           {.name = "penalty",
            .range = {.lower = 0, .lower_open = true},
            .meaning =

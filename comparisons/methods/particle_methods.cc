@@ -35,6 +35,8 @@ elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, F
                                             : elasticity::weak_form::InteriorRows::weak;
   weak.integration = parameters.text("quadrature") == "consistent" ? elasticity::weak_form::IntegrationRule::consistent
                                                                    : elasticity::weak_form::IntegrationRule::paper;
+  weak.repeated_rows = parameters.text("repeated_rows") == "computed" ? elasticity::weak_form::RepeatedRows::computed
+                                                                      : elasticity::weak_form::RepeatedRows::copied;
   weak.quadrature_points = static_cast<int>(parameters.integer("quadrature_points"));
   if (parameters.has("penalty"))
     weak.penalty = parameters.real("penalty");

@@ -212,7 +212,8 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
     std::vector<Column> columns{{"method", Align::left, true}, {"level", Align::left}};
     for (const char *phase : shown)
       columns.push_back({std::string_view(phase) == "neighbours" ? "neigh-\nbours" : phase});
-    columns.insert(columns.end(), {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}});
+    columns.insert(columns.end(),
+                   {{"total\nminimum"}, {"total\nmaximum"}, {"spread\n%"}, {"runs"}, {"rows\ncopied %"}});
     Table table(columns);
     for (const Cell *cell : group.cells) {
       if (cell->status != Status::ok || cell->seconds.empty())
@@ -226,6 +227,10 @@ void append_phases(Document &document, const std::vector<Group> &groups) {
       row.push_back(timed ? seconds(total->second.maximum) : no_number);
       row.push_back(percent(relative_spread(*cell)));
       row.push_back(fmt::format("{}", cell->repeats));
+      const auto copied = cell->quantities.find("repeated_rows"); // of a grid: less work than other particles take
+      row.push_back(copied != cell->quantities.end() && cell->n_points > 0
+                        ? percent(copied->second / static_cast<double>(cell->n_points))
+                        : no_number);
       table.add_row(std::move(row));
     }
     if (table.rows().empty())

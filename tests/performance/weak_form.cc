@@ -1,5 +1,6 @@
 // The cantilever of Batra & Zhang 2008 by the three meshless methods, nG = 10, rho = 4, m = 2: seconds
-// of a whole solve and of its phases. Run with OPENBLAS_NUM_THREADS=1 for one core.
+// of a whole solve and of its phases, with all rows computed and with those that a grid repeats copied. Run with
+// OPENBLAS_NUM_THREADS=1 for one core.
 
 #include "unit/elasticity/plane_samples.h"
 
@@ -9,13 +10,17 @@ namespace {
 
 using namespace plane_samples;
 
-void cantilever(benchmark::State &state, Method method, weak_form::IntegrationRule integration) {
+using weak_form::IntegrationRule;
+using weak_form::RepeatedRows;
+
+void cantilever(benchmark::State &state, Method method, IntegrationRule integration, RepeatedRows repeated_rows) {
   const Cantilever plate;
   const auto particles = plate.particles(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   const auto problem = plate.problem();
   SolveSeconds sum;
   for (auto _ : state) {
-    const auto solution = solve(method, problem, particles, {.integration = integration});
+    const auto solution =
+        solve(method, problem, particles, {.integration = integration, .repeated_rows = repeated_rows});
     sum.neighbours += solution.seconds.neighbours;
     sum.basis += solution.seconds.basis;
     sum.assembly += solution.seconds.assembly;
@@ -31,10 +36,13 @@ void cantilever(benchmark::State &state, Method method, weak_form::IntegrationRu
 void levels(benchmark::internal::Benchmark *b) {
   b->Args({31, 7})->Args({61, 13})->Args({91, 19})->Unit(benchmark::kMillisecond);
 }
-using weak_form::IntegrationRule;
-BENCHMARK_CAPTURE(cantilever, strong, Method::strong, IntegrationRule::paper)->Apply(levels);
-BENCHMARK_CAPTURE(cantilever, weak1, Method::weak1, IntegrationRule::paper)->Apply(levels);
-BENCHMARK_CAPTURE(cantilever, weak2, Method::weak2, IntegrationRule::paper)->Apply(levels);
-BENCHMARK_CAPTURE(cantilever, weak1_consistent, Method::weak1, IntegrationRule::consistent)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, strong, Method::strong, IntegrationRule::paper, RepeatedRows::computed)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1, Method::weak1, IntegrationRule::paper, RepeatedRows::computed)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak2, Method::weak2, IntegrationRule::paper, RepeatedRows::computed)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1_consistent, Method::weak1, IntegrationRule::consistent, RepeatedRows::computed)
+    ->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1_copied, Method::weak1, IntegrationRule::paper, RepeatedRows::copied)->Apply(levels);
+BENCHMARK_CAPTURE(cantilever, weak1_consistent_copied, Method::weak1, IntegrationRule::consistent, RepeatedRows::copied)
+    ->Apply(levels);
 
 } // namespace

@@ -78,6 +78,7 @@ struct Options {
   int quadrature_points = 10;
   double characteristic_length = 1;
   weak_form::IntegrationRule integration = weak_form::IntegrationRule::paper;
+  weak_form::RepeatedRows repeated_rows = weak_form::RepeatedRows::copied;
   std::vector<strong_form::CornerRule> corner_rules{};
 };
 
@@ -92,6 +93,7 @@ inline ParticleSolution solve(Method method, const PlaneProblem &problem, const 
   parameters.derivatives = method == Method::weak1 ? DerivativeRule::direct : DerivativeRule::differentiated;
   parameters.quadrature_points = options.quadrature_points;
   parameters.integration = options.integration;
+  parameters.repeated_rows = options.repeated_rows;
   parameters.characteristic_length = options.characteristic_length;
   return weak_form::solve(problem, shared, basis, parameters);
 }

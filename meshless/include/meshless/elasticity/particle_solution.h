@@ -69,6 +69,7 @@ public:
   // Figures of the solve.
   SolveSeconds seconds;
   std::int64_t nonzeros = 0;
+  std::size_t n_repeated = 0; ///< particles whose rows are copies of another's, moved
   double backward_error = 0;
   double algebraic_error = 0; ///< of the coefficients, relative: SystemSolution::algebraic_error
   double reciprocal_condition = 0;

@@ -51,10 +51,54 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
   }
 }
 
+std::shared_ptr<const RepeatedNeighbourhoods> Assembler::find_repeated() {
+  if (parameters_.repeated_rows == RepeatedRows::computed || !surroundings_.simple() || problem_.body_force ||
+      problem_.thermal_strain || !RepeatedNeighbourhoods::likely(particles_))
+    return {};
+  Stopwatch watch;
+  std::vector<double> radii(particles_.size());
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    place(i);
+    radii[i] = radius_;
+  }
+  auto repeated = std::make_shared<const RepeatedNeighbourhoods>(surroundings_.boundary(0), search_, radii);
+  seconds.neighbours += watch.lap();
+  return repeated;
+}
+
 void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matrix,
                          std::vector<double> &right_hand_side) {
+  if (const std::size_t first = repeated_ ? repeated_->first_like(particle) : particle; first != particle) {
+    const auto &coefficients = coefficients_of_first(first);
+    Stopwatch watch;
+    place(particle);
+    repeated_->collect(centre_, radius_, own_.candidates);
+    seconds.neighbours += watch.lap();
+    own_.k = coefficients;
+    right_ = {0, 0}; // nothing acts inside, or rows are not copied
+  } else {
+    place(particle);
+    integrate();
+    if (repeated_ && repeated_->shared(particle))
+      first_coefficients_.emplace(particle, own_.k);
+  }
   Stopwatch watch;
+  append_rows(matrix, right_hand_side);
+  seconds.assembly += watch.lap();
+}
+
+/// Of another thread's particle too: rows then are the same for any number of threads.
+const Assembler::Coefficients &Assembler::coefficients_of_first(std::size_t particle) {
+  if (const auto found = first_coefficients_.find(particle); found != first_coefficients_.end())
+    return found->second;
   place(particle);
+  integrate();
+  return first_coefficients_.emplace(particle, own_.k).first->second;
+}
+
+/// Fills own_, foreign_ and right_ for the particle that is placed.
+void Assembler::integrate() {
+  Stopwatch watch;
   const bool collocated = interior_ && parameters_.interior_rows == InteriorRows::collocated;
   const bool heaviside = !parameters_.test_function;
   if (!collocated)
@@ -76,9 +120,6 @@ void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matri
     for (const auto &part : quadrature_.parts)
       integrate_part(part);
   }
-  watch.lap();
-  append_rows(matrix, right_hand_side);
-  seconds.assembly += watch.lap();
 }
 
 void Assembler::build_subdomain(bool heaviside) {
@@ -109,7 +150,10 @@ void Assembler::place(std::size_t particle) {
 
 /// Particles of the region that reach into the subdomain and are visible from a point.
 void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &block) {
-  search_.collect(centre_, radius_, block.candidates);
+  if (repeated_)
+    repeated_->collect(centre_, radius_, block.candidates);
+  else
+    search_.collect(centre_, radius_, block.candidates);
   if (!surroundings_.simple())
     regions_[region].filter.apply(seen_from, block.candidates);
   block.batch.assign(particles_, block.candidates, centre_);
@@ -459,7 +503,7 @@ void Assembler::append_rows(linear_algebra::SparseRows &matrix, std::vector<doub
   columns_.resize(2 * n);
   entries_.resize(2 * n);
   for (std::size_t j = 0; j < n; ++j) {
-    columns_[2 * j] = 2 * std::int64_t{row_[j].first};
+    columns_[2 * j] = 2 * row_[j].first;
     columns_[2 * j + 1] = columns_[2 * j] + 1;
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -500,9 +544,9 @@ void Assembler::append_mass_rows(linear_algebra::SparseRows &mass) {
   Stopwatch watch;
   integrate_mass();
   columns_.resize(mass_.size());
-  for (std::int64_t i = 0; i < 2; ++i) {
+  for (linear_algebra::SparseRows::Column i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < mass_.size(); ++j)
-      columns_[j] = 2 * std::int64_t{own_.candidates[j]} + i;
+      columns_[j] = 2 * own_.candidates[j] + i;
     mass.append_row(columns_, mass_);
   }
   seconds.assembly += watch.lap();

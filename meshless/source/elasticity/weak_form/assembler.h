@@ -1,6 +1,7 @@
 #pragma once
 
 #include "consistent_subdomain.h"
+#include "repeated_neighbourhoods.h"
 
 #include "meshless/domain/local_subdomain.h"
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
@@ -8,8 +9,10 @@
 #include "meshless/linear_algebra/sparse_rows.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace meshless::elasticity::weak_form {
@@ -24,6 +27,13 @@ public:
   /// Appends rows 2 I and 2 I + 1.
   void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
 
+  /// The neighbourhoods whose rows are copies; null unless they are wanted, likely, and all there is to a row: one
+  /// convex region, and neither body force nor thermal strain.
+  std::shared_ptr<const RepeatedNeighbourhoods> find_repeated();
+  /// Copies rows from here on.
+  /// @param repeated of this cloud, or null
+  void copy_repeated(std::shared_ptr<const RepeatedNeighbourhoods> repeated) { repeated_ = std::move(repeated); }
+
   /// Calls for rows of the mass, by the densities of the regions, kg/m^3.
   void set_densities(std::vector<double> densities) { densities_ = std::move(densities); }
   /// Appends rows 2 I and 2 I + 1 of the mass for the particle assembled last.
@@ -33,10 +43,11 @@ public:
 
 private:
   /// Particles of one region that have a part in the rows, and their coefficients K_11, K_12, K_21, K_22.
+  using Coefficients = std::array<std::vector<double>, 4>;
   struct Block {
     std::vector<cloud::Index> candidates;
     basis::CandidateBatch<2> batch;
-    std::array<std::vector<double>, 4> k;
+    Coefficients k;
   };
   /// What one region keeps for all its particles.
   struct RegionRule {
@@ -47,6 +58,8 @@ private:
   };
 
   void place(std::size_t particle);
+  void integrate();
+  const Coefficients &coefficients_of_first(std::size_t particle);
   void build_subdomain(bool heaviside);
   void collect(std::size_t region, const Point2 &seen_from, Block &block);
   void evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient);
@@ -86,6 +99,9 @@ private:
   std::vector<RegionRule> regions_;
   cloud::CandidateSearch<2> search_;
 
+  std::shared_ptr<const RepeatedNeighbourhoods> repeated_;
+  /// Of particles that others are like.
+  std::unordered_map<std::size_t, Coefficients> first_coefficients_;
   std::vector<double> densities_; ///< by region; empty: no mass is asked for
 
   std::size_t region_ = 0;
@@ -111,7 +127,7 @@ private:
   std::vector<double> boundary_weights_; ///< of a part's points
   std::vector<double> thermal_;
   std::vector<std::pair<cloud::Index, std::array<double, 4>>> row_;
-  std::vector<std::int64_t> columns_;
+  std::vector<linear_algebra::SparseRows::Column> columns_;
   std::vector<double> entries_;
   std::vector<double> mass_; ///< of candidates of the own region
 };

@@ -43,6 +43,12 @@ enum class PenaltyLength {
   smoothing, ///< h of the particle that is nearest to the boundary point, in its region
 };
 
+/// Rows of particles inside whose subdomain and neighbours lie as those of another one, moved, as on a grid most do.
+enum class RepeatedRows {
+  copied,   ///< the same coefficients in other columns: equal to rounding
+  computed, ///< every row by its own quadrature
+};
+
 /// Parameters of the meshless local Petrov-Galerkin method (MLPG), Batra & Zhang 2008, section 3.2.
 struct Parameters {
   DerivativeRule derivatives = DerivativeRule::direct; ///< direct: weak1, differentiated: weak2
@@ -54,6 +60,8 @@ struct Parameters {
   Subdomains subdomains = Subdomains::whole;
   InteriorRows interior_rows = InteriorRows::weak;
   IntegrationRule integration = IntegrationRule::paper;
+  /// Only in one convex region without body force and thermal strain; elsewhere all are computed.
+  RepeatedRows repeated_rows = RepeatedRows::copied;
   /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part; with the Heaviside function nG + 2 on a
   /// whole circle, nG on every arc of one. The consistent rule has those of consistent_points.
   int quadrature_points = 10;
