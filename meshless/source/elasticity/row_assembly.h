@@ -10,6 +10,7 @@
 #include "meshless/linear_algebra/system_solver.h"
 #include "meshless/parallel/threads.h"
 
+#include <tbb/concurrent_queue.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -75,26 +76,30 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
     std::vector<double> right_hand_side;
   };
   constexpr std::size_t chunk = 32; // a millisecond or so
-  static_assert(n_first % chunk == 0);
+  static_assert(n_few % chunk == 0 && n_first % chunk == 0);
+  const auto per_particle = static_cast<std::size_t>(matrix.n_columns()) / n_particles;
   linear_algebra::Stopwatch watch;
   tbb::enumerable_thread_specific<Assembler> assemblers(another);
+  tbb::concurrent_queue<Rows> spare; // storage of chunks that have been taken: its growth would cost page faults
   parallel::in_ordered_chunks<Rows>(
       n_particles, chunk, parallel::threads(),
       [&](std::size_t begin, std::size_t end) {
-        const auto per_particle = static_cast<std::size_t>(matrix.n_columns()) / n_particles;
         auto &own = assemblers.local();
         Rows rows{linear_algebra::SparseRows(matrix.n_columns()), {}};
+        if (spare.try_pop(rows)) {
+          rows.matrix.clear();
+          rows.right_hand_side.clear();
+        }
         for (std::size_t i = begin; i < end; ++i)
           assemble_equilibrated(own, i, begin * per_particle, rows.matrix, rows.right_hand_side);
         return rows;
       },
-      [&](const Rows &rows) {
-        if (const std::size_t n_done =
-                right_hand_side.size() * n_particles / static_cast<std::size_t>(matrix.n_columns());
-            n_done == n_first)
+      [&](Rows &rows) {
+        if (const std::size_t n_done = right_hand_side.size() / per_particle; n_done == n_few || n_done == n_first)
           reserve_by_longest(matrix);
         matrix.append_rows(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
+        spare.push(std::move(rows));
       });
   const double wall = watch.lap();
   SolveSeconds spent;

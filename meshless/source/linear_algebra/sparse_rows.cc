@@ -22,6 +22,12 @@ void SparseRows::reserve(std::size_t n_entries) {
   values_.reserve(n_entries);
 }
 
+void SparseRows::clear() {
+  offsets_.resize(1);
+  columns_.clear();
+  values_.clear();
+}
+
 void SparseRows::append_row(std::span<const Column> columns, std::span<const double> values) {
   append(columns, values);
 }

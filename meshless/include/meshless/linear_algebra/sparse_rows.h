@@ -18,6 +18,8 @@ public:
   explicit SparseRows(std::int64_t n_columns);
 
   void reserve(std::size_t n_entries);
+  /// No rows; their storage is kept.
+  void clear();
 
   /// Appends a row; entries that are exactly zero are left out.
   /// @param columns increasing
