@@ -90,7 +90,7 @@ private:
 
   std::size_t region_ = 0;
   Point2 centre_{};
-  double radius_ = 0;
+  domain::Ellipse shape_{0}; ///< of the subdomain
   bool interior_ = true;
   domain::SubdomainQuadrature quadrature_;
   Block own_;
