@@ -282,8 +282,8 @@ std::vector<HardCase> incompressibility_cases() {
            "error of the tip's u2 of 20 seeds",
            "u2(48, 52) = 18.51, computed at high order",
            .02,
-           "2 %: as on even clouds; supports are round, so that they are three times as long across the "
-           "particles as needed, or too short along",
+           "2 %: as on even clouds; round supports are three times as long across the particles as needed, or too "
+           "short along, elliptic ones fit",
            {"mixed"},
            false,
            [=](const std::string &m) {

@@ -127,8 +127,8 @@ void add_shape_functions(const Prepared &p, bool differentiated, std::span<const
 void add_quadrature(const SolveRequest &request, const Prepared &p, MethodFacts &facts) {
   facts.n_integrated_domains = static_cast<double>(p.particles->size());
   const meshless::elasticity::Surroundings surroundings(p.problem.regions);
-  if (request.parameters.text("quadrature") != "paper" || shrinks_subdomains(request.parameters, p.regular) ||
-      surroundings.n_regions() > 1)
+  if (request.parameters.text("quadrature") != "paper" ||
+      shrinks_subdomains(request.parameters, p.regular, p.particles->has_flattenings()) || surroundings.n_regions() > 1)
     return;
   meshless::domain::SubdomainRule rule(surroundings.boundary(0),
                                        static_cast<int>(request.parameters.integer("quadrature_points")),

@@ -58,6 +58,17 @@ std::vector<std::string> basis_names(Form form) {
   return names;
 }
 
+/// Of the particles' supports and with them the subdomains.
+Declaration supports_key() {
+  return {.name = "supports",
+          .type = Type::choice,
+          .choices = {"auto", "round", "elliptic"},
+          .default_value = "auto",
+          .meaning = "elliptic: h along and across as the cells of the particles are long and wide, in place of "
+                     "smoothing_rule, and subdomains likewise; auto: with ssph on irregular clouds where one in ten "
+                     "cells is longer than 1.35 times its width"};
+}
+
 /// Keys that every particle method has.
 std::vector<Declaration> basis_declarations(Form form) {
   const auto positive = scene::Range{.lower = 0, .lower_open = true};
@@ -119,7 +130,7 @@ Declaration subdomains_key() {
           .choices = {"auto", "whole", "shrunk"},
           .default_value = "auto",
           .meaning = "whole: cut by the boundary; shrunk: those inside reach no farther than it; auto: whole on "
-                     "regular clouds, shrunk on others"};
+                     "regular clouds and ellipses, shrunk on others"};
 }
 
 std::vector<Declaration> weak_declarations() {
@@ -157,6 +168,7 @@ std::vector<Declaration> mixed_declarations() {
            .range = {.lower = 0, .upper = 10},
            .default_value = 0.2,
            .meaning = "alpha of tau = alpha h^2 / (2 mu) (PSPG); .05 to 1 is usable, 0 lets the pressure oscillate"},
+          supports_key(),
           test_function_key(smooth_test_functions(), "test function of the local weak form"),
           test_radius_key("radius of the local subdomain in units of h; if absent 1 spacing"),
           subdomains_key()};
@@ -222,6 +234,21 @@ void check_pressure_support(const scene::CheckContext &context, scene::Diagnosti
         fmt::format("pressure_support = {}", order + 2));
 }
 
+/// Ellipses need the one basis that has them, and whole subdomains.
+void check_supports(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
+  const auto &method = context.method;
+  if (method.text("supports") != "elliptic")
+    return;
+  if (method.text("basis") != "ssph")
+    diagnostics.error(
+        method.location("supports"), context.method_key + ".supports",
+        fmt::format("elliptic supports with the basis {}, whose supports are round", method.text("basis")),
+        "basis = \"ssph\"");
+  if (method.text("subdomains") == "shrunk")
+    diagnostics.error(method.location("supports"), context.method_key + ".supports",
+                      "elliptic supports with shrunk subdomains: ellipses are not shrunk", "subdomains = \"whole\"");
+}
+
 void check_corner(const scene::CheckContext &context, scene::Diagnostics &diagnostics) {
   // The corners' names are those of the benchmark; their positions do not matter here.
   static const std::vector<problems::Corner> corners{{"NE", {}}, {"SE", {}}, {"SW", {}}, {"NW", {}}};
@@ -250,8 +277,10 @@ void check_particle_keys(Form form, const scene::CheckContext &context, scene::D
   check_support(context, diagnostics);
   if (form != Form::mixed)
     check_locking(context, diagnostics);
-  else
+  else {
     check_pressure_support(context, diagnostics);
+    check_supports(context, diagnostics);
+  }
   if (form == Form::strong)
     check_corner(context, diagnostics);
   check_solver_keys(context, diagnostics);
@@ -323,9 +352,19 @@ meshless::kernels::Kernel pressure_kernel_of(const Parameters &parameters, bool 
   return kernel;
 }
 
-bool shrinks_subdomains(const Parameters &parameters, bool regular) {
+bool shrinks_subdomains(const Parameters &parameters, bool regular, bool elliptic) {
   const std::string &subdomains = parameters.text("subdomains");
-  return subdomains == "shrunk" || (subdomains == "auto" && !regular);
+  return subdomains == "shrunk" || (subdomains == "auto" && !regular && !elliptic);
+}
+
+Supports supports_of(const Parameters &parameters, Form form, bool regular) {
+  if (form != Form::mixed || parameters.text("supports") == "round")
+    return Supports::round;
+  if (parameters.text("supports") == "elliptic")
+    return Supports::elliptic;
+  const bool possible = parameters.text("basis") == "ssph" && parameters.text("smoothing_rule") == "given" &&
+                        parameters.text("subdomains") != "shrunk";
+  return !regular && possible ? Supports::by_cells : Supports::round;
 }
 
 } // namespace comparisons::methods

@@ -34,6 +34,14 @@ std::optional<meshless::kernels::Kernel> test_function_of(const scene::Parameter
 /// @param smoothing_length h over the spacing
 double test_radius_of(const scene::Parameters &parameters, Form form, bool regular, double smoothing_length);
 /// Subdomains that reach no farther than the boundary.
-bool shrinks_subdomains(const scene::Parameters &parameters, bool regular);
+bool shrinks_subdomains(const scene::Parameters &parameters, bool regular, bool elliptic);
+
+enum class Supports {
+  round,
+  elliptic,
+  by_cells, ///< elliptic where cells are much longer than wide
+};
+
+Supports supports_of(const scene::Parameters &parameters, Form form, bool regular);
 
 } // namespace comparisons::methods
