@@ -136,7 +136,8 @@ void add_quadrature(const SolveRequest &request, const Prepared &p, MethodFacts 
   meshless::domain::SubdomainQuadrature quadrature;
   double n = 0;
   for (Index i = 0; i < p.particles->size(); ++i) {
-    rule.build(p.particles->position(i), p.test_radius * p.particles->smoothing_length(i), quadrature);
+    rule.build(p.particles->position(i), {p.test_radius * p.particles->smoothing_length(i), p.particles->flattening(i)},
+               quadrature);
     n += static_cast<double>(quadrature.JxW.size() + quadrature.boundary_JxW.size());
   }
   facts.n_quadrature_points = n;

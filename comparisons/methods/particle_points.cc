@@ -122,7 +122,8 @@ Prepared prepare(const SolveRequest &request, Form form) {
   p.basis = meshless::basis::make_basis<2>(parameters.text("basis"), static_cast<int>(parameters.integer("order")),
                                            kernel_of(parameters, p.regular));
   if (has_subdomains(form))
-    p.test_radius = test_radius_of(parameters, form, p.regular, smoothing_length_of(parameters, p.regular));
+    p.test_radius = test_radius_of(parameters, form, p.regular || p.particles->has_flattenings(),
+                                   smoothing_length_of(parameters, p.regular));
   const std::string &enlarge = parameters.text("enlarge");
   if (enlarge == "on" || (enlarge == "auto" && !p.regular)) {
     p.problem.require_inside(*p.particles);

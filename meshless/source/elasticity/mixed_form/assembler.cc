@@ -140,9 +140,8 @@ void Assembler::add_momentum(std::size_t begin, std::size_t size) {
   }
 }
 
-/// tau grad w at a point of the subdomain. In an ellipse tau is a tensor, that of a disc in the frame that stretches
-/// the ellipse to one: its squared width across the particles would stabilise nothing along them, and the squared
-/// length too much across.
+/// tau grad w at a point of the subdomain. In an ellipse tau is a tensor: alpha times the squares of h along it and
+/// across it, so that the scheme is that of a disc in the frame that stretches the ellipse to one.
 Vector2 Assembler::stabilising_gradient(std::size_t q) const {
   const Point2 g = shape_.compressed(shape_.compressed({points_.gradient[0][q], points_.gradient[1][q]}));
   return {tau_ * g[0], tau_ * g[1]};
