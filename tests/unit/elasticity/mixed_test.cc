@@ -94,9 +94,10 @@ TEST(Mixed, cook_near_incompressibility_on_jittered_clouds) {
 
 TEST(Mixed, cook_on_mapped_grids_whose_cells_are_long) {
   // The vertices of 24 x 24 quadrilaterals, up to three times as long as wide, moved by up to 25 % of them: 18.51
-  // within 2 %, with elliptic supports and subdomains. Round ones leave 11.6 ... 19.5 for twenty such clouds.
+  // within 2 %, with elliptic supports and subdomains. Round ones leave 3.2, 6.9 and 15.7 for
+  // these clouds, the worst low ones of twenty.
   const Cook cook{Material(1, .4999, PlaneModel::plane_strain)};
-  for (std::uint64_t seed = 0; seed < 3; ++seed) { // 20 in `petrov verify`
+  for (const std::uint64_t seed : {7, 8, 11}) { // 20 in `petrov verify`
     auto points = sample_clouds::jittered_grid<2>({25, 25}, {0, 0}, {1, 1}, .25, seed);
     for (auto &p : points)
       p = {48 * p[0], (1 - p[1]) * 44 * p[0] + p[1] * (44 + 16 * p[0])};
@@ -109,9 +110,9 @@ TEST(Mixed, cook_on_mapped_grids_whose_cells_are_long) {
 }
 
 TEST(Weak1, cook_on_mapped_grids_whose_cells_are_long) {
-  // As above at nu = .3: 21.94 within 2 %, by both rules of integration; round supports leave 17 ... 90.
+  // As above at nu = .3: 21.94 within 2 %, by both rules of integration.
   const Cook cook{Material(1, .3, PlaneModel::plane_strain)};
-  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+  for (const std::uint64_t seed : {7, 8}) {
     auto points = sample_clouds::jittered_grid<2>({25, 25}, {0, 0}, {1, 1}, .25, seed);
     for (auto &p : points)
       p = {48 * p[0], (1 - p[1]) * 44 * p[0] + p[1] * (44 + 16 * p[0])};
