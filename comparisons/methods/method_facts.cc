@@ -127,8 +127,8 @@ void add_shape_functions(const Prepared &p, bool differentiated, std::span<const
 void add_quadrature(const SolveRequest &request, const Prepared &p, MethodFacts &facts) {
   facts.n_integrated_domains = static_cast<double>(p.particles->size());
   const meshless::elasticity::Surroundings surroundings(p.problem.regions);
-  if (request.parameters.text("quadrature") != "paper" || shrinks_subdomains(request.parameters, p.regular) ||
-      surroundings.n_regions() > 1)
+  if (request.parameters.text("quadrature") != "paper" ||
+      shrinks_subdomains(request.parameters, p.regular, p.particles->has_flattenings()) || surroundings.n_regions() > 1)
     return;
   meshless::domain::SubdomainRule rule(surroundings.boundary(0),
                                        static_cast<int>(request.parameters.integer("quadrature_points")),
@@ -136,7 +136,8 @@ void add_quadrature(const SolveRequest &request, const Prepared &p, MethodFacts 
   meshless::domain::SubdomainQuadrature quadrature;
   double n = 0;
   for (Index i = 0; i < p.particles->size(); ++i) {
-    rule.build(p.particles->position(i), p.test_radius * p.particles->smoothing_length(i), quadrature);
+    rule.build(p.particles->position(i), {p.test_radius * p.particles->smoothing_length(i), p.particles->flattening(i)},
+               quadrature);
     n += static_cast<double>(quadrature.JxW.size() + quadrature.boundary_JxW.size());
   }
   facts.n_quadrature_points = n;

@@ -31,9 +31,18 @@ meshless::kernels::Kernel pressure_kernel_of(const scene::Parameters &parameters
 /// The test function; nothing for Heaviside's.
 std::optional<meshless::kernels::Kernel> test_function_of(const scene::Parameters &parameters, double test_radius);
 /// Radius of the local subdomain in units of h.
+/// @param regular a regular cloud, or ellipses
 /// @param smoothing_length h over the spacing
 double test_radius_of(const scene::Parameters &parameters, Form form, bool regular, double smoothing_length);
 /// Subdomains that reach no farther than the boundary.
-bool shrinks_subdomains(const scene::Parameters &parameters, bool regular);
+bool shrinks_subdomains(const scene::Parameters &parameters, bool regular, bool elliptic);
+
+enum class Supports {
+  round,
+  elliptic,
+  by_cells, ///< elliptic where cells are much longer than wide
+};
+
+Supports supports_of(const scene::Parameters &parameters, Form form, bool regular);
 
 } // namespace comparisons::methods

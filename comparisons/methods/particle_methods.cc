@@ -19,8 +19,9 @@ namespace {
 namespace elasticity = meshless::elasticity;
 
 elasticity::weak_form::Subdomains subdomains_of(const SolveRequest &request, const Prepared &p) {
-  return shrinks_subdomains(request.parameters, p.regular) ? elasticity::weak_form::Subdomains::shrunk
-                                                           : elasticity::weak_form::Subdomains::whole;
+  return shrinks_subdomains(request.parameters, p.regular, p.particles->has_flattenings())
+             ? elasticity::weak_form::Subdomains::shrunk
+             : elasticity::weak_form::Subdomains::whole;
 }
 
 elasticity::weak_form::Parameters weak_parameters(const SolveRequest &request, Form form, const Prepared &p) {

@@ -20,6 +20,7 @@ const std::map<std::string, std::vector<std::string>> &words_of_messages() {
   static const std::map<std::string, std::vector<std::string>> words{
       {"E_not_positive", {"0 Pa is out of range", "greater than 0"}},
       {"effect_that_no_method_has", {"no listed method can do the effect 'heat_conduction'"}},
+      {"ellipses_shrunk", {"elliptic supports", "subdomains = \"whole\""}},
       {"empty_method_list", {"[[method]]", "strong, weak1, weak2, hybrid, mixed, fem"}},
       {"level_of_zero", {"a count of 0", "from 2 to"}},
       {"missing_unit", {"'226.9' has no unit", "\"226.9 GPa\"", "226.9e9"}},

@@ -1,6 +1,7 @@
 #include "kernel_weights.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace meshless::basis {
@@ -18,22 +19,30 @@ using Offset = std::array<Pack, dim>;
 /// Distance squared over h_J squared of the candidates inside the support of a lane, and which they are. Without a
 /// branch: whether a candidate is a neighbour cannot be foreseen.
 /// @returns how many they are
-template <int dim>
+template <int dim, bool round>
 std::size_t find_neighbours(const Offset<dim> &x, const CandidateBatch<dim> &candidates, double limit,
                             cloud::Index *active, double *squares) {
   std::array<const double *, dim> coordinates;
   for (int k = 0; k < dim; ++k)
     coordinates[k] = candidates.coordinate(k);
+  std::array<const double *, dim> flattening;
+  for (int k = 0; k < dim; ++k)
+    flattening[k] = candidates.flattening(k);
   const double *inverse_h = candidates.inverse_h();
   const std::size_t n = candidates.size();
   const Offset<dim> own = x; // a copy that no store can change
   std::size_t n_active = 0;
   for (std::size_t j = 0; j < n; ++j) {
     Pack s_squared = 0;
+    Pack along = 0;
     for (int k = 0; k < dim; ++k) {
       const Pack d = coordinates[k][j] - own[k];
       s_squared += d * d;
+      if constexpr (!round)
+        along += flattening[k][j] * d;
     }
+    if constexpr (!round)
+      s_squared += along * along;
     s_squared *= inverse_h[j] * inverse_h[j];
     store(s_squared, squares + n_active * n_lanes);
     active[n_active] = static_cast<cloud::Index>(j);
@@ -47,17 +56,29 @@ template <int dim>
 void measure_slots(const NeighbourPack<dim> &pack, double limit, double *squares) {
   const Pack counts = pack.counts();
   const Pack scale = pack.scale();
+  const bool round = !pack.particles().has_flattenings();
   for (std::size_t a = 0; a < pack.n_slots(); ++a) {
     Pack s_squared = 0;
+    Pack along = 0;
     for (int k = 0; k < dim; ++k) {
       const Pack d = load(pack.offset(k) + a * n_lanes);
       s_squared += d * d;
+      if (!round)
+        along += pack.flattening(k, a) * d;
     }
+    s_squared += along * along;
     const Pack to_h = scale * load(pack.inverse_h() + a * n_lanes);
     s_squared *= to_h * to_h;
     where(counts <= static_cast<double>(a), s_squared) = limit;
     store(s_squared, squares + a * n_lanes);
   }
+}
+
+/// Derivatives of the weights and their normalisation are those of round supports.
+void require_round(const Weighing &weighing, WeightDerivatives derivatives, bool round) {
+  if (!round && (weighing.volumes || derivatives != WeightDerivatives::none))
+    throw std::invalid_argument("supports that are ellipses need a basis that weighs without volumes and finds its "
+                                "derivatives directly: ssph");
 }
 
 /// Replaces s^2 in `workspace.weights` by the kernel.
@@ -147,11 +168,14 @@ void make_room(std::size_t n_neighbours, WeightDerivatives derivatives, Workspac
 template <int dim>
 void compute_weights(const Weighing &weighing, const std::array<Pack, dim> &x, const CandidateBatch<dim> &candidates,
                      WeightDerivatives derivatives, typename ShapeFunctions<dim>::Workspace &workspace) {
+  const bool round = candidates.flattening(0) == nullptr;
+  require_round(weighing, derivatives, round);
   make_room(candidates.size(), derivatives, workspace);
   const double limit = edge_limit(kernels::support_of(weighing.kernel), weighing.edge);
   auto &active = workspace.active;
   active.resize(candidates.size());
-  active.resize(find_neighbours<dim>(x, candidates, limit, active.data(), workspace.weights.data()));
+  const auto find = round ? find_neighbours<dim, true> : find_neighbours<dim, false>;
+  active.resize(find(x, candidates, limit, active.data(), workspace.weights.data()));
   compute(weighing, derivatives, limit, active.size(), workspace);
   if (weighing.volumes)
     multiply_volumes<dim>(weighing, derivatives, active.size(), workspace, [&](std::size_t a) {
@@ -163,6 +187,7 @@ void compute_weights(const Weighing &weighing, const std::array<Pack, dim> &x, c
 template <int dim>
 void compute_weights(const Weighing &weighing, const NeighbourPack<dim> &pack, WeightDerivatives derivatives,
                      typename ShapeFunctions<dim>::Workspace &workspace) {
+  require_round(weighing, derivatives, !pack.particles().has_flattenings());
   make_room(pack.n_slots(), derivatives, workspace);
   const double limit = edge_limit(kernels::support_of(weighing.kernel), weighing.edge);
   measure_slots<dim>(pack, limit, workspace.weights.data());
@@ -180,10 +205,14 @@ std::size_t count_neighbours(const Weighing &weighing, const cloud::Point<dim> &
   std::size_t count = 0;
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     double s_squared = 0;
+    double along = 0;
     for (int k = 0; k < dim; ++k) {
       const double s = (candidates.coordinate(k)[j] - x[k]) * candidates.inverse_h()[j];
       s_squared += s * s;
+      if (candidates.flattening(k) != nullptr)
+        along += candidates.flattening(k)[j] * s;
     }
+    s_squared += along * along;
     count += s_squared < limit;
   }
   return count;

@@ -20,7 +20,8 @@ enum class WeightDerivatives { none, first, second };
 /// `workspace.slopes` holds W'/s, `workspace.curvatures` (W'' - W'/s) / s^2, times the same factor: with
 /// d = (xi_J - x) / h_J the first derivatives by x are -slope d_k / h_J, the second
 /// (slope delta_kl + curvature d_k d_l) / h_J^2.
-/// @throws std::invalid_argument if volumes are needed and absent
+/// @throws std::invalid_argument if volumes are needed and absent, or supports are ellipses and volumes or derivatives
+///   are needed
 template <int dim>
 void compute_weights(const Weighing &weighing, const std::array<linear_algebra::Pack, dim> &x,
                      const CandidateBatch<dim> &candidates, WeightDerivatives derivatives,

@@ -32,6 +32,8 @@ template <int dim>
 void PointNeighbours<dim>::collect(const kernels::Kernel &kernel, EdgeRule edge, const cloud::Point<dim> &x,
                                    const CandidateBatch<dim> &candidates, double scale) {
   require_volumes(candidates);
+  if (candidates.flattening(0) != nullptr)
+    throw std::invalid_argument("this basis has round supports alone: choose ssph for ellipses");
   all.clear();
   const double inverse_scale = 1 / scale;
   double least_distance = std::numeric_limits<double>::infinity();

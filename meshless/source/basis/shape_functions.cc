@@ -55,8 +55,10 @@ void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::sp
   const std::size_t n = candidates.size();
   inverse_h_.resize(n);
   volumes_.resize(particles.has_volumes() ? n : 0);
-  for (int k = 0; k < dim; ++k)
+  for (int k = 0; k < dim; ++k) {
     coordinates_[k].resize(n);
+    flattenings_[k].resize(particles.has_flattenings() ? n : 0);
+  }
   double sum = 0;
   for (std::size_t j = 0; j < n; ++j) {
     const auto particle = static_cast<std::size_t>(candidates[j]);
@@ -66,6 +68,9 @@ void CandidateBatch<dim>::assign(const cloud::Particles<dim> &particles, std::sp
     inverse_h_[j] = 1 / h;
     if (particles.has_volumes())
       volumes_[j] = particles.volumes()[particle];
+    if (particles.has_flattenings())
+      for (int k = 0; k < dim; ++k)
+        flattenings_[k][j] = particles.flattenings()[particle][k];
     sum += h;
   }
   scale_ = n == 0 ? 1 : sum / static_cast<double>(n);

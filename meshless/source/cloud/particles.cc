@@ -41,9 +41,9 @@ void check_positions(std::span<const Point<dim>> positions, std::span<const int>
 
 template <int dim>
 Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths,
-                          std::vector<double> volumes, std::vector<int> regions)
+                          std::vector<double> volumes, std::vector<int> regions, std::vector<Point<dim>> flattenings)
     : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)), volumes_(std::move(volumes)),
-      regions_(std::move(regions)) {
+      regions_(std::move(regions)), flattenings_(std::move(flattenings)) {
   if (positions_.empty())
     throw std::invalid_argument("a cloud needs at least one particle");
   if (positions_.size() != smoothing_lengths_.size())
@@ -53,6 +53,13 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
     throw std::invalid_argument(fmt::format("{} positions but {} volumes", positions_.size(), volumes_.size()));
   if (!regions_.empty() && positions_.size() != regions_.size())
     throw std::invalid_argument(fmt::format("{} positions but {} regions", positions_.size(), regions_.size()));
+  if (!flattenings_.empty() && positions_.size() != flattenings_.size())
+    throw std::invalid_argument(fmt::format("{} positions but {} flattenings", positions_.size(), flattenings_.size()));
+  for (std::size_t i = 0; i < flattenings_.size(); ++i)
+    for (const double f : flattenings_[i])
+      if (!std::isfinite(f))
+        throw std::invalid_argument(
+            fmt::format("particle {}: its flattening ({}) is not finite", i, fmt::join(flattenings_[i], ", ")));
   for (std::size_t i = 0; i < regions_.size(); ++i)
     if (regions_[i] < 0)
       throw std::invalid_argument(fmt::format("particle {}: its region {} is not an index", i, regions_[i]));
@@ -68,6 +75,15 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
     largest_smoothing_length_ = std::max(largest_smoothing_length_, h);
   }
   uniform_ = largest_smoothing_length_ <= smallest_smoothing_length_ * (1 + 1e-9);
+}
+
+template <int dim>
+double Particles<dim>::squared_distance_in_h(std::size_t i, const Point<dim> &x) const {
+  double along = 0;
+  if (has_flattenings())
+    for (int k = 0; k < dim; ++k)
+      along += flattenings_[i][k] * (x[k] - positions_[i][k]);
+  return (distance_squared<dim>(positions_[i], x) + along * along) / (smoothing_lengths_[i] * smoothing_lengths_[i]);
 }
 
 template <int dim>

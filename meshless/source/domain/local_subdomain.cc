@@ -102,12 +102,15 @@ SubdomainRule::SubdomainRule(SubdomainRule &&) noexcept = default;
 
 const SubdomainQuadrature &SubdomainRule::unit_disc() const { return scratch_->unit_disc; }
 
-void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature,
+void SubdomainRule::build(const Point2 &centre, const Ellipse &shape, SubdomainQuadrature &quadrature,
                           const SubdomainWanted &wanted) {
+  if (wanted.circle && !shape.round())
+    throw std::invalid_argument("the edge of an ellipse is not integrated over: choose a test function that vanishes "
+                                "there, or round subdomains");
   quadrature.clear();
   auto &s = *scratch_;
   s.disc.centre = centre;
-  s.disc.radius = radius;
+  s.disc.shape = shape;
   s.disc.tolerance = boundary_->tolerance();
   if (!s.find_pieces(*boundary_)) {
     if (wanted.interior)
@@ -139,11 +142,11 @@ void SubdomainRule::build(const Point2 &centre, double radius, SubdomainQuadratu
 bool SubdomainRule::Scratch::find_pieces(const Boundary &boundary) {
   disc.pieces.clear();
   parts.clear();
-  boundary.pieces_within(disc.centre, disc.radius, near);
+  boundary.pieces_within(disc.centre, disc.shape.radius, near);
   for (const std::size_t i : near) {
     const auto &piece = boundary.pieces()[i];
     piece_parts.clear();
-    append_parts_inside(piece, disc.centre, disc.radius, disc.tolerance, piece_parts);
+    append_parts_inside(piece, disc.centre, disc.shape, disc.tolerance, piece_parts);
     if (piece_parts.empty())
       continue;
     for (const auto &part : piece_parts)
@@ -184,14 +187,18 @@ void SubdomainRule::Scratch::make_unit_disc(const SubdomainPoints &n) {
 
 void SubdomainRule::Scratch::add_whole_disc(SubdomainQuadrature &quadrature) const {
   const std::size_t n = unit_disc.JxW.size();
-  for (int k = 0; k < 2; ++k) {
+  const double radius = disc.shape.radius;
+  for (int k = 0; k < 2; ++k)
     quadrature.point[k].resize(n);
-    for (std::size_t q = 0; q < n; ++q)
-      quadrature.point[k][q] = disc.centre[k] + disc.radius * unit_disc.point[k][q];
+  for (std::size_t q = 0; q < n; ++q) {
+    const Point2 d = disc.shape.compressed({unit_disc.point[0][q], unit_disc.point[1][q]});
+    for (int k = 0; k < 2; ++k)
+      quadrature.point[k][q] = disc.centre[k] + radius * d[k];
   }
   quadrature.JxW.resize(n);
+  const double area = radius * radius / disc.shape.aspect();
   for (std::size_t q = 0; q < n; ++q)
-    quadrature.JxW[q] = disc.radius * disc.radius * unit_disc.JxW[q];
+    quadrature.JxW[q] = area * unit_disc.JxW[q];
 }
 
 /// n + 2 equispaced points: exact for trigonometric polynomials up to the degree n + 1.
@@ -199,8 +206,9 @@ void SubdomainRule::Scratch::add_whole_circle(int n, SubdomainQuadrature &quadra
   SubdomainQuadrature::Part part{PartKind::circle, 0, 0, quadrature.boundary_JxW.size(), 0};
   for (int i = 0; i < n + 2; ++i) {
     const Point2 direction = direction_of(full_turn * i / (n + 2));
-    add_boundary_point({disc.centre[0] + disc.radius * direction[0], disc.centre[1] + disc.radius * direction[1]},
-                       direction, full_turn * disc.radius / (n + 2), quadrature);
+    add_boundary_point(
+        {disc.centre[0] + disc.shape.radius * direction[0], disc.centre[1] + disc.shape.radius * direction[1]},
+        direction, full_turn * disc.shape.radius / (n + 2), quadrature);
   }
   part.end = quadrature.boundary_JxW.size();
   quadrature.parts.push_back(part);
@@ -245,7 +253,7 @@ void SubdomainRule::Scratch::split_at_breaks(const SeenPiece &piece, const Part 
 bool SubdomainRule::Scratch::seen_inside_of(const BoundaryPiece &piece, double t) {
   const Point2 x = piece.point(t);
   const Point2 normal = piece.normal(t);
-  const double step = 1e-7 * disc.radius;
+  const double step = 1e-7 * disc.shape.radius;
   const Point2 to{x[0] - step * normal[0] - disc.centre[0], x[1] - step * normal[1] - disc.centre[1]};
   const double r = std::hypot(to[0], to[1]);
   double angle = std::atan2(to[1], to[0]);
@@ -357,8 +365,9 @@ void SubdomainRule::Scratch::add_arc(double begin, double end, int n, SubdomainQ
   SubdomainQuadrature::Part part{PartKind::circle, 0, 0, quadrature.boundary_JxW.size(), 0};
   for (std::size_t q = 0; q < gauss.points.size(); ++q) {
     const Point2 direction = direction_of(begin + (end - begin) * gauss.points[q]);
-    add_boundary_point({disc.centre[0] + disc.radius * direction[0], disc.centre[1] + disc.radius * direction[1]},
-                       direction, (end - begin) * disc.radius * gauss.weights[q], quadrature);
+    add_boundary_point(
+        {disc.centre[0] + disc.shape.radius * direction[0], disc.centre[1] + disc.shape.radius * direction[1]},
+        direction, (end - begin) * disc.shape.radius * gauss.weights[q], quadrature);
   }
   part.end = quadrature.boundary_JxW.size();
   quadrature.parts.push_back(part);

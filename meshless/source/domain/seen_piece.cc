@@ -24,11 +24,13 @@ double turn(const Point2 &a, const Point2 &b, bool counter_clockwise) {
   return turned < 0 ? turned + full_turn : turned;
 }
 
-void append_part_of_line(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance,
+/// Stretching leaves a line a line, with the same parameter.
+void append_part_of_line(const BoundaryPiece &piece, const Point2 &centre, const Ellipse &shape, double tolerance,
                          std::vector<Part> &parts) {
-  const Point2 along = minus(piece.end, piece.begin);
-  const Point2 from = minus(piece.begin, centre);
-  const double length = piece.length();
+  const double radius = shape.radius;
+  const Point2 along = shape.stretched(minus(piece.end, piece.begin));
+  const Point2 from = shape.stretched(minus(piece.begin, centre));
+  const double length = std::hypot(along[0], along[1]);
   const double nearest = -dot(along, from) / (length * length);
   const double distance = std::abs(cross(along, from)) / length;
   if (distance >= radius)
@@ -37,8 +39,62 @@ void append_part_of_line(const BoundaryPiece &piece, const Point2 &centre, doubl
   if (half * length < shortest_chord * radius)
     return;
   const Part part{std::max(0.0, nearest - half), std::min(1.0, nearest + half)};
-  if (part.end - part.begin > tolerance / length)
+  if (part.end - part.begin > tolerance / piece.length())
     parts.push_back(part);
+}
+
+/// Where f changes its sign between begin and end, at the ends of which it has opposite signs.
+template <typename Function>
+double root_between(const Function &f, double begin, double end) {
+  const bool rises = f(begin) < 0;
+  while (true) {
+    const double middle = 0.5 * (begin + end);
+    if (middle <= begin || middle >= end)
+      return middle;
+    ((f(middle) < 0) == rises ? begin : end) = middle;
+  }
+}
+
+/// Roots of f between the given increasing points, at which its sign is looked at.
+template <typename Function>
+std::vector<double> roots_between(const Function &f, const std::vector<double> &points) {
+  std::vector<double> roots;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if ((f(points[i]) < 0) != (f(points[i + 1]) < 0))
+      roots.push_back(root_between(f, points[i], points[i + 1]));
+  return roots;
+}
+
+/// s^2 - 1 is a trigonometric polynomial of degree 2 of the angle on the arc: it is monotonous between the at most four
+/// zeros of its derivative, and those are far from each other unless it hardly changes between them.
+void append_parts_of_arc_in_ellipse(const BoundaryPiece &piece, const Point2 &centre, const Ellipse &shape,
+                                    double tolerance, std::vector<Part> &parts) {
+  constexpr int n_looks = 32; // on a full turn: eight for a half wave
+  const double sweep = piece.sweep();
+  const double sense = piece.arc->counter_clockwise ? 1 : -1;
+  const auto excess = [&](double t) {
+    const Point2 y = shape.stretched(minus(piece.point(t), centre));
+    return dot(y, y) - shape.radius * shape.radius;
+  };
+  const auto slope = [&](double t) { // but for a positive factor
+    const Point2 y = shape.stretched(minus(piece.point(t), centre));
+    const Point2 radial = minus(piece.point(t), piece.arc->centre);
+    return dot(y, shape.stretched({-sense * radial[1], sense * radial[0]}));
+  };
+  const int n = std::max(1, static_cast<int>(std::ceil(n_looks * sweep / full_turn)));
+  std::vector<double> looks;
+  for (int i = 0; i <= n; ++i)
+    looks.push_back(static_cast<double>(i) / n);
+  std::vector<double> ends = roots_between(slope, looks);
+  ends.insert(ends.begin(), 0.0);
+  ends.push_back(1.0);
+  ends = roots_between(excess, ends);
+  ends.insert(ends.begin(), 0.0);
+  ends.push_back(1.0);
+  const double shortest = std::max(tolerance, 2 * shortest_chord * shape.radius / shape.aspect()) / piece.length();
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (ends[i + 1] - ends[i] > shortest && excess(0.5 * (ends[i] + ends[i + 1])) < 0)
+      parts.push_back({ends[i], ends[i + 1]});
 }
 
 void append_parts_of_arc(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance,
@@ -140,12 +196,14 @@ std::array<Point2, 2> SeenPiece::tangents() const {
   return {Point2{c * u[0] + s * u[1], c * u[1] - s * u[0]}, Point2{c * u[0] - s * u[1], c * u[1] + s * u[0]}};
 }
 
-void append_parts_inside(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance,
+void append_parts_inside(const BoundaryPiece &piece, const Point2 &centre, const Ellipse &shape, double tolerance,
                          std::vector<Part> &parts) {
-  if (piece.arc)
-    append_parts_of_arc(piece, centre, radius, tolerance, parts);
+  if (!piece.arc)
+    append_part_of_line(piece, centre, shape, tolerance, parts);
+  else if (shape.round())
+    append_parts_of_arc(piece, centre, shape.radius, tolerance, parts);
   else
-    append_part_of_line(piece, centre, radius, tolerance, parts);
+    append_parts_of_arc_in_ellipse(piece, centre, shape, tolerance, parts);
 }
 
 } // namespace meshless::domain

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshless/domain/boundary.h"
+#include "meshless/domain/ellipse.h"
 
 #include <array>
 #include <cmath>
@@ -67,8 +68,8 @@ struct Part {
   double end;
 };
 
-/// Appends the parts of the piece inside the disc that are longer than the tolerance.
-void append_parts_inside(const BoundaryPiece &piece, const Point2 &centre, double radius, double tolerance,
+/// Appends the parts of the piece inside the disc or ellipse that are longer than the tolerance.
+void append_parts_inside(const BoundaryPiece &piece, const Point2 &centre, const Ellipse &shape, double tolerance,
                          std::vector<Part> &parts);
 
 } // namespace meshless::domain

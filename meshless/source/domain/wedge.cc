@@ -26,6 +26,19 @@ double ahead(double from, double to) {
   return angle > std::numbers::pi + 1 ? 0 : angle;
 }
 
+/// From a to b, in (-pi, pi].
+double angle_between(const Point2 &a, const Point2 &b) {
+  return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+}
+
+/// Angle of a direction after the ellipse has been stretched to a disc; infinity remains.
+double stretched_angle(const Ellipse &shape, double angle) {
+  if (std::isinf(angle))
+    return angle;
+  const Point2 e{std::cos(angle), std::sin(angle)};
+  return angle + angle_between(e, shape.stretched(e));
+}
+
 /// Distances in angle from the ends of a wedge outwards to the nearest tangent of an arc that its rays meet.
 struct Tangencies {
   double before = std::numeric_limits<double>::infinity();
@@ -87,7 +100,8 @@ void Wedge::look(const CutDisc &disc, const Boundary &boundary, const Visibility
   meetings.clear();
   for (std::size_t i = 0; i < disc.pieces.size(); ++i)
     disc.pieces[i].append(direction, i, meetings);
-  std::erase_if(meetings, [&](const Meeting &m) { return m.r >= disc.radius; });
+  const double reach = disc.shape.reach(direction);
+  std::erase_if(meetings, [&](const Meeting &m) { return m.r >= reach; });
   std::sort(meetings.begin(), meetings.end(), [](const Meeting &a, const Meeting &b) { return a.r < b.r; });
 
   intervals.clear();
@@ -96,7 +110,7 @@ void Wedge::look(const CutDisc &disc, const Boundary &boundary, const Visibility
   bool gap = false;
   double inner = 0;
   for (std::size_t k = 0; k <= meetings.size(); ++k) {
-    const double outer = k < meetings.size() ? meetings[k].r : disc.radius;
+    const double outer = k < meetings.size() ? meetings[k].r : reach;
     const double r = 0.5 * (inner + outer);
     const bool inside = boundary.contains({disc.centre[0] + r * direction[0], disc.centre[1] + r * direction[1]});
     outside.push_back(!inside);
@@ -112,18 +126,35 @@ void Wedge::look(const CutDisc &disc, const Boundary &boundary, const Visibility
 }
 
 void Wedge::radii(const CutDisc &disc, const Point2 &direction, std::vector<double> &result) const {
+  const double reach = disc.shape.reach(direction);
   result.assign(1, 0.0);
   for (const auto &meeting : meetings)
     // In their order, and inside the disc, whatever rounding does close to break points.
-    result.push_back(
-        std::clamp(disc.pieces[meeting.piece].distance(direction, meeting.root), result.back(), disc.radius));
-  result.push_back(disc.radius);
+    result.push_back(std::clamp(disc.pieces[meeting.piece].distance(direction, meeting.root), result.back(), reach));
+  result.push_back(reach);
 }
 
 void make_angular_rule(const CutDisc &disc, const Wedge &wedge, int n, AngularRule &rule) {
   rule.points.clear();
   rule.weights.clear();
-  append_rule(wedge.begin, wedge.end, tangencies(disc, wedge), n, rule);
+  const auto at = tangencies(disc, wedge);
+  if (disc.shape.round()) {
+    append_rule(wedge.begin, wedge.end, at, n, rule);
+    return;
+  }
+  const double begin = stretched_angle(disc.shape, wedge.begin);
+  const double end = stretched_angle(disc.shape, wedge.end);
+  append_rule(begin, end,
+              {begin - stretched_angle(disc.shape, wedge.begin - at.before),
+               stretched_angle(disc.shape, wedge.end + at.after) - end},
+              n, rule);
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const Point2 e{std::cos(rule.points[q]), std::sin(rule.points[q])};
+    const Point2 d = disc.shape.compressed(e);
+    rule.points[q] += angle_between(e, d);
+    // r^2 dtheta is an area, which the stretching multiplies by the aspect.
+    rule.weights[q] /= disc.shape.aspect() * (d[0] * d[0] + d[1] * d[1]);
+  }
 }
 
 void find_breaks(const CutDisc &disc, std::span<const std::pair<std::size_t, Part>> parts,
@@ -142,9 +173,9 @@ void find_breaks(const CutDisc &disc, std::span<const std::pair<std::size_t, Par
     }
   }
   for (const auto &piece : disc.pieces) {
-    if (piece.has_tangents() && piece.tangent_length() < disc.radius)
+    if (piece.has_tangents())
       for (const auto &tangent : piece.tangents())
-        if (piece.parameter(tangent, piece.tangent_length()) <= 1)
+        if (piece.tangent_length() < disc.shape.reach(tangent) && piece.parameter(tangent, piece.tangent_length()) <= 1)
           breaks.push_back(angle_of(tangent));
     if (piece.on_circle() && piece.piece().distance(disc.centre) <= disc.tolerance) {
       const Point2 &c = piece.offset();
@@ -156,7 +187,7 @@ void find_breaks(const CutDisc &disc, std::span<const std::pair<std::size_t, Par
   // Break points of adjacent pieces coincide to the rounding of coordinates, and no more is merged:
   // where a circle through a corner touches a piece there, two lie 1e-8 apart, and a wedge that
   // began at the wrong one would be as much too wide.
-  const double same = 1e-15 * (10 + (std::abs(disc.centre[0]) + std::abs(disc.centre[1])) / disc.radius);
+  const double same = 1e-15 * (10 + (std::abs(disc.centre[0]) + std::abs(disc.centre[1])) / disc.shape.radius);
   breaks.erase(std::unique(breaks.begin(), breaks.end(), [&](double a, double b) { return b - a <= same; }),
                breaks.end());
   if (breaks.size() > 1 && breaks.front() + full_turn - breaks.back() <= same)

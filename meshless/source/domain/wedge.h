@@ -3,6 +3,7 @@
 #include "detour.h"
 #include "seen_piece.h"
 
+#include "meshless/domain/ellipse.h"
 #include "meshless/domain/visibility.h"
 
 #include <span>
@@ -10,10 +11,10 @@
 
 namespace meshless::domain {
 
-/// The disc around a particle that the boundary comes into.
+/// The disc or ellipse around a particle that the boundary comes into.
 struct CutDisc {
   Point2 centre{};
-  double radius = 0;
+  Ellipse shape{0};
   double tolerance = 0;
   std::vector<SeenPiece> pieces; ///< that come into it
 };
@@ -32,7 +33,7 @@ struct Wedge {
   void look(const CutDisc &disc, const Boundary &boundary, const Visibility *visibility);
 
   bool any(Interval kind) const;
-  /// Ends of the intervals on one ray of the wedge, from 0 to the disc's radius, m.
+  /// Ends of the intervals on one ray of the wedge, from 0 to the disc's edge, m.
   void radii(const CutDisc &disc, const Point2 &direction, std::vector<double> &result) const;
 };
 
@@ -43,7 +44,7 @@ struct AngularRule {
 };
 
 /// Replaces `rule` by n Gauss points over the wedge, or over each half of it, in a variable in which the distances to
-/// its arcs are smooth.
+/// its arcs are smooth. In an ellipse that variable is the angle in the disc that it is stretched to.
 void make_angular_rule(const CutDisc &disc, const Wedge &wedge, int n, AngularRule &rule);
 
 /// Angles of all break points, increasing, in [0, 2 pi).

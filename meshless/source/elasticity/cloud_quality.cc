@@ -86,7 +86,7 @@ CloudQuality cloud_quality(const Surroundings &surroundings, const cloud::Partic
     for (const cloud::Index c : probe.candidates()) {
       const auto j = static_cast<std::size_t>(c);
       const double d = distance(x, particles.position(j));
-      n_neighbours += d < basis.support() * particles.smoothing_length(j);
+      n_neighbours += std::sqrt(particles.squared_distance_in_h(j, x)) < basis.support();
       if (j != i && d / particles.smoothing_length(i) < quality.smallest_distance) {
         quality.smallest_distance = d / particles.smoothing_length(i);
         quality.closest = i;
@@ -126,7 +126,7 @@ Enlargement enlarge_where_poor(const Surroundings &surroundings, const cloud::Pa
       const Point2 x = probe.points()[regularity.worst_point];
       given_up[i] = true;
       for (std::size_t j = 0; j < particles.size(); ++j) {
-        const double s = distance(x, particles.position(j)) / (basis.support() * result.particles.smoothing_length(j));
+        const double s = std::sqrt(result.particles.squared_distance_in_h(j, x)) / basis.support();
         if (s < outskirts_begin || s > outskirts_end || particles.region(j) != particles.region(i))
           continue;
         const double larger = step * result.particles.smoothing_length(j);
@@ -141,8 +141,10 @@ Enlargement enlarge_where_poor(const Surroundings &surroundings, const cloud::Pa
       const auto positions = particles.positions();
       const auto volumes = particles.volumes();
       const auto regions = particles.regions();
-      result.particles = cloud::Particles<2>({positions.begin(), positions.end()}, std::move(h),
-                                             {volumes.begin(), volumes.end()}, {regions.begin(), regions.end()});
+      const auto flattenings = particles.flattenings();
+      result.particles =
+          cloud::Particles<2>({positions.begin(), positions.end()}, std::move(h), {volumes.begin(), volumes.end()},
+                              {regions.begin(), regions.end()}, {flattenings.begin(), flattenings.end()});
     }
   }
   for (std::size_t j = 0; j < particles.size(); ++j) {

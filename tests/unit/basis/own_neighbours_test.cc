@@ -138,4 +138,75 @@ TEST_P(OwnNeighbours, shape_functions_of_shared_candidates) {
   all(std::integral_constant<int, 3>{});
 }
 
+/// The map x -> along e and across it, three times as long along.
+Point<2> stretched(const Point<2> &x, double factor) {
+  const Point<2> e{std::cos(.4), std::sin(.4)};
+  const double along = (factor - 1) * (e[0] * x[0] + e[1] * x[1]);
+  return {x[0] + along * e[0], x[1] + along * e[1]};
+}
+
+TEST(EllipticSupports, are_round_ones_of_a_cloud_that_has_been_stretched) {
+  // With y = L x a value is the same, a gradient by x that by y times L; both ways of finding neighbours.
+  constexpr double factor = 3;
+  const auto round = make_cloud<2>(Lengths::random, 1);
+  std::vector<Point<2>> positions;
+  std::vector<double> h;
+  for (std::size_t i = 0; i < round.size(); ++i) {
+    positions.push_back(stretched(round.position(i), factor));
+    h.push_back(factor * round.smoothing_length(i));
+  }
+  const double f = std::sqrt(factor * factor - 1);
+  const std::vector<Point<2>> flattenings(positions.size(), {-f * std::sin(.4), f * std::cos(.4)});
+  const cloud::Particles<2> particles(positions, h, {}, {}, flattenings);
+  const auto shape = basis::make_basis<2>("ssph", 2, kernels::Gauss(4), {});
+  const basis::Wanted wanted{.value = true, .gradient = true};
+  const cloud::CandidateSearch<2> search(particles, shape->support());
+  basis::NeighbourPack<2> pack;
+  basis::ShapeFunctionValues<2> own;
+  basis::ShapeFunctions<2>::Workspace workspace;
+  for (const auto &x : sample_clouds::random_points<2>(20, {0, 0}, {1, 1}, 8)) {
+    const auto y = stretched(x, factor);
+    EXPECT_NEAR(particles.squared_distance_in_h(7, y), round.squared_distance_in_h(7, x), 1e-12);
+    const auto expected = evaluate_basis::at<2>(*shape, round, {x}, wanted);
+    const auto found = evaluate_basis::at<2>(*shape, particles, {y}, wanted);
+    std::vector<cloud::Index> list;
+    search.collect(y, 0, list);
+    const std::span<const cloud::Index> lists[] = {list};
+    pack.assign(particles, {&y, 1}, lists);
+    shape->evaluate_own(pack, wanted, own, workspace);
+    const double tolerance = rounding / expected.regularity.smallest_pivot_ratio;
+    std::size_t a = 0;
+    for (std::size_t j = 0; j < particles.size(); ++j) {
+      const auto compare_with = [&](double value, const Point<2> &gradient) {
+        const auto g = stretched(gradient, factor);
+        EXPECT_NEAR(value, expected.values.value(j)[0], tolerance);
+        for (int k = 0; k < 2; ++k)
+          EXPECT_NEAR(g[k] * h[0], expected.values.gradient(k, j)[0] * h[0], 10 * tolerance);
+      };
+      compare_with(found.values.value(j)[0], {found.values.gradient(0, j)[0], found.values.gradient(1, j)[0]});
+      const bool listed = a < list.size() && static_cast<std::size_t>(list[a]) == j;
+      compare_with(listed ? own.value(a)[0] : 0,
+                   listed ? Point<2>{own.gradient(0, a)[0], own.gradient(1, a)[0]} : Point<2>{});
+      a += listed;
+    }
+  }
+}
+
+TEST(EllipticSupports, are_refused_by_what_has_round_ones_alone) {
+  const auto round = make_cloud<2>(Lengths::equal, 2);
+  const auto positions = round.positions();
+  const auto h = round.smoothing_lengths();
+  const auto volumes = round.volumes();
+  const cloud::Particles<2> particles({positions.begin(), positions.end()}, {h.begin(), h.end()},
+                                      {volumes.begin(), volumes.end()}, {},
+                                      std::vector<Point<2>>(positions.size(), {1, 0}));
+  const auto evaluate = [&](const char *name, const basis::Wanted &wanted) {
+    evaluate_basis::at<2>(*basis::make_basis<2>(name, 2, kernels::Gauss(4), {}), particles, {{.5, .5}}, wanted);
+  };
+  EXPECT_NO_THROW(evaluate("ssph", {.value = true, .gradient = true, .hessian = true}));
+  EXPECT_THROW(evaluate("ssph", {.differentiated_gradient = true}), std::invalid_argument);
+  EXPECT_THROW(evaluate("rkpm", {.value = true}), std::invalid_argument);
+  EXPECT_THROW(evaluate("msph", {.value = true}), std::invalid_argument);
+}
+
 } // namespace

@@ -137,6 +137,64 @@ TEST_P(CurvedDomain, discs_anywhere) {
         check(shape, x, radius);
 }
 
+/// Every arc as chords of `step` radians.
+Boundary with_chords(const Boundary &boundary, double step) {
+  std::vector<BoundaryPiece> pieces;
+  for (const auto &piece : boundary.pieces()) {
+    const int n = piece.arc ? static_cast<int>(std::ceil(piece.sweep() / step)) : 1;
+    for (int i = 0; i < n; ++i)
+      pieces.push_back({i == 0 ? piece.begin : piece.point(static_cast<double>(i) / n),
+                        i + 1 == n ? piece.end : piece.point(static_cast<double>(i + 1) / n), piece.id});
+  }
+  return Boundary(pieces);
+}
+
+TEST_P(CurvedDomain, ellipses_anywhere) {
+  // int W,j is the boundary's int W n_j, and the area that of the domain with chords in place of arcs, which have been
+  // checked: up to the segments between the two, step^2 / 12 of the sector that the disc holds at most.
+  constexpr double step = 1e-2;
+  const meshless::kernels::Gauss kernel(1);
+  const auto shape = GetParam()();
+  const auto polygon = with_chords(shape.boundary, step);
+  for (const Point2 &f : {Point2{0, 1.5}, {2, 1}}) {
+    const Ellipse ellipse(.45, f);
+    const double area = pi * ellipse.radius * ellipse.radius / ellipse.aspect();
+    for (const auto &centre : sample_clouds::random_points<2>(40, shape.boundary.lower(), shape.boundary.upper(), 5)) {
+      const double distance = shape.boundary.distance(centre);
+      if (!shape.inside(centre) || distance < .25 * ellipse.radius || distance >= ellipse.radius)
+        continue;
+      SCOPED_TRACE(testing::Message() << "ellipse at (" << centre[0] << ", " << centre[1] << ")");
+      SubdomainQuadrature quadrature, chords;
+      SubdomainRule(shape.boundary, nG).build(centre, ellipse, quadrature);
+      SubdomainRule(polygon, nG).build(centre, ellipse, chords);
+      const auto squared = [&](const Point2 &d) {
+        const double along = f[0] * d[0] + f[1] * d[1];
+        return (d[0] * d[0] + d[1] * d[1] + along * along) / (ellipse.radius * ellipse.radius);
+      };
+      Point2 defect{};
+      double difference = 0;
+      for (std::size_t q = 0; q < quadrature.JxW.size(); ++q) {
+        const Point2 d{quadrature.point[0][q] - centre[0], quadrature.point[1][q] - centre[1]};
+        ASSERT_LE(squared(d), 1 + 1e-12);
+        const double along = f[0] * d[0] + f[1] * d[1];
+        const double slope = kernel.slope(squared(d)) / (ellipse.radius * ellipse.radius);
+        for (int k = 0; k < 2; ++k)
+          defect[k] += quadrature.JxW[q] * slope * (d[k] + along * f[k]);
+        difference += quadrature.JxW[q];
+      }
+      for (std::size_t q = 0; q < quadrature.boundary_JxW.size(); ++q) {
+        const Point2 d{quadrature.boundary_point[0][q] - centre[0], quadrature.boundary_point[1][q] - centre[1]};
+        for (int k = 0; k < 2; ++k)
+          defect[k] -= quadrature.boundary_JxW[q] * kernel.value(squared(d)) * quadrature.boundary_normal[k][q];
+      }
+      EXPECT_LT(std::hypot(defect[0], defect[1]), 1e-10 * ellipse.radius);
+      for (const double JxW : chords.JxW)
+        difference -= JxW;
+      EXPECT_NEAR(difference, 0, step * step * area);
+    }
+  }
+}
+
 TEST(CurvedSubdomain, tangents_at_every_distance_from_the_end_of_a_wedge) {
   // The tangent point of a hole passes through the circle of the disc: d^2 = R^2 + radius^2.
   const auto shape = quarter();

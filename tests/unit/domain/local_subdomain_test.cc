@@ -50,11 +50,9 @@ Point2 divergence_defect(const SubdomainQuadrature &quadrature, const Point2 &ce
   return defect;
 }
 
-/// Everything that must hold for one disc.
-void check(const Boundary &boundary, const Point2 &centre, double radius) {
+/// Everything that must hold for the rule of one disc.
+void check(const SubdomainQuadrature &quadrature, const Boundary &boundary, const Point2 &centre, double radius) {
   SCOPED_TRACE(testing::Message() << "disc at (" << centre[0] << ", " << centre[1] << "), radius " << radius);
-  SubdomainQuadrature quadrature;
-  SubdomainRule(boundary, nG).build(centre, radius, quadrature);
   const double area = std::numbers::pi * radius * radius;
   for (std::size_t q = 0; q < quadrature.JxW.size(); ++q) {
     const Point2 x{quadrature.point[0][q], quadrature.point[1][q]};
@@ -81,6 +79,38 @@ void check(const Boundary &boundary, const Point2 &centre, double radius) {
   for (const double JxW : quadrature.boundary_JxW)
     length -= JxW;
   EXPECT_NEAR(length, 0, 2e-6 * radius); // chords of circles that touch: up to 1e-6 radii each
+}
+
+void check(const Boundary &boundary, const Point2 &centre, double radius) {
+  SubdomainQuadrature quadrature;
+  SubdomainRule(boundary, nG).build(centre, radius, quadrature);
+  check(quadrature, boundary, centre, radius);
+}
+
+/// The rule of an ellipse, stretched to that of a disc in a stretched domain.
+void check_stretched(const Boundary &boundary, const Point2 &centre, const Ellipse &shape) {
+  SubdomainQuadrature quadrature;
+  SubdomainRule(boundary, nG).build(centre, shape, quadrature);
+  for (std::size_t q = 0; q < quadrature.JxW.size(); ++q) {
+    const auto x = shape.stretched({quadrature.point[0][q], quadrature.point[1][q]});
+    for (int k = 0; k < 2; ++k)
+      quadrature.point[k][q] = x[k];
+    quadrature.JxW[q] *= shape.aspect();
+  }
+  for (std::size_t q = 0; q < quadrature.boundary_JxW.size(); ++q) {
+    const auto x = shape.stretched({quadrature.boundary_point[0][q], quadrature.boundary_point[1][q]});
+    const auto n = shape.compressed({quadrature.boundary_normal[0][q], quadrature.boundary_normal[1][q]});
+    const double length = std::hypot(n[0], n[1]);
+    for (int k = 0; k < 2; ++k) {
+      quadrature.boundary_point[k][q] = x[k];
+      quadrature.boundary_normal[k][q] = n[k] / length;
+    }
+    quadrature.boundary_JxW[q] *= length * shape.aspect();
+  }
+  std::vector<BoundaryPiece> pieces;
+  for (const auto &piece : boundary.pieces())
+    pieces.push_back({shape.stretched(piece.begin), shape.stretched(piece.end), piece.id});
+  check(quadrature, Boundary(pieces), shape.stretched(centre), shape.radius);
 }
 
 Boundary polygon(const std::vector<Point2> &corners) {
@@ -151,6 +181,31 @@ TEST_P(ConcaveDomain, discs_anywhere) {
       if (boundary.contains(x) && !close)
         check(boundary, x, radius);
     }
+}
+
+TEST_P(ConcaveDomain, ellipses_are_discs_of_a_stretched_domain) {
+  const auto &boundary = GetParam().second;
+  for (const Point2 &flattening : {Point2{0, 1}, {1.5, -1}, {3, 2}}) {
+    const Ellipse shape(.3, flattening);
+    for (const auto &x : sample_clouds::random_points<2>(60, {0, 0}, {1, 1}, 6)) {
+      bool close = false; // to an edge, in the stretched domain
+      for (const auto &piece : boundary.pieces()) {
+        const BoundaryPiece stretched{shape.stretched(piece.begin), shape.stretched(piece.end), 0};
+        close = close || stretched.distance(shape.stretched(x)) < .25 * shape.radius;
+      }
+      if (boundary.contains(x) && !close)
+        check_stretched(boundary, x, shape);
+    }
+    for (const auto &piece : boundary.pieces())
+      check_stretched(boundary, piece.begin, shape);
+  }
+}
+
+TEST(LocalSubdomain, the_edge_of_an_ellipse_is_refused) {
+  const auto boundary = rectangle({-5, -5}, {5, 5});
+  SubdomainQuadrature quadrature;
+  EXPECT_THROW(SubdomainRule(boundary, nG).build({1, 2}, {.5, {1, 0}}, quadrature, {.circle = true}),
+               std::invalid_argument);
 }
 
 TEST(LocalSubdomain, several_intervals_on_one_ray) {

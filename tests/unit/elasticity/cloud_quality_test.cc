@@ -2,9 +2,13 @@
 
 #include "concave_samples.h"
 
+#include "meshless/elasticity/cell_shapes.h"
 #include "meshless/elasticity/cloud_quality.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -100,6 +104,65 @@ TEST(Enlargement, gives_up_where_no_length_helps) {
   const auto result = enlarge_where_poor(strip, particles, *basis, 1);
   EXPECT_LE(result.largest_factor, 2);
   EXPECT_LE(cloud_quality(strip, result.particles, *basis, 1).smallest_pivot_ratio, 1e-12);
+}
+
+TEST(CellShapes, are_the_cells_of_a_grid_and_its_edges) {
+  const double spacing[] = {.1, .025};
+  const auto points = sample_clouds::grid<2>({11, 41}, {0, 0}, {1, 1});
+  const auto shapes = cell_shapes(unit_square(), points, {});
+  EXPECT_NEAR(shapes.upper_aspect, 4, 1e-9);
+  const auto far_from_end = [](double x, double d) { return x > 1.99 * d && x < 1 - 1.99 * d; };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!far_from_end(points[i][0], spacing[0]) && !far_from_end(points[i][1], spacing[1]))
+      continue; // the cell in a corner has its part in the average
+    EXPECT_NEAR(shapes.smoothing_lengths[i], spacing[0], 1e-10);
+    EXPECT_NEAR(shapes.flattenings[i][0], 0, 1e-9);
+    EXPECT_NEAR(std::abs(shapes.flattenings[i][1]), std::sqrt(15), 1e-9);
+  }
+}
+
+TEST(CellShapes, are_the_cells_of_a_ring) {
+  // Cells between two arcs and two rays, r dr dphi: as long and wide as that to the first order of dr / r.
+  const domain::Boundary ring({{{1, 0}, {2, 0}, 0},
+                               {{2, 0}, {0, 2}, 1, domain::Arc{{0, 0}, true}},
+                               {{0, 2}, {0, 1}, 2},
+                               {{0, 1}, {1, 0}, 3, domain::Arc{{0, 0}, false}}});
+  constexpr double dr = 1. / 60, dphi = std::numbers::pi / 60;
+  std::vector<Point2> points;
+  for (int i = 0; i <= 60; ++i)
+    for (int j = 0; j <= 30; ++j)
+      points.push_back(
+          {j == 30 ? 0 : (1 + i * dr) * std::cos(j * dphi), j == 0 ? 0 : (1 + i * dr) * std::sin(j * dphi)});
+  const auto shapes = cell_shapes(Surroundings({{ring, material}}), points, {});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double r = std::hypot(points[i][0], points[i][1]);
+    const auto &f = shapes.flattenings[i];
+    const bool at_cut = std::min(points[i][0], points[i][1]) < 2 * r * dphi;
+    if (at_cut && std::min(r - 1, 2 - r) < 2 * dr)
+      continue; // a corner
+    EXPECT_NEAR(shapes.smoothing_lengths[i], r * dphi, .05 * r * dphi);
+    EXPECT_NEAR(std::sqrt(1 + f[0] * f[0] + f[1] * f[1]), r * dphi / dr, .05 * r * dphi / dr);
+    EXPECT_NEAR(std::abs(f[0] * points[i][1] - f[1] * points[i][0]) / std::hypot(f[0], f[1]) / r, 0, .05);
+  }
+}
+
+TEST(CellShapes, are_those_of_the_own_region) {
+  // Two regions with grids of different spacings, particles on the interface twice.
+  const auto box = [](double left, double right) { return domain::rectangle({left, 0}, {right, 1}); };
+  const Surroundings surroundings({{box(0, 1), material}, {box(1, 2), material}});
+  auto points = sample_clouds::grid<2>({11, 11}, {0, 0}, {1, 1});
+  std::vector<int> regions(points.size(), 0);
+  for (const auto &x : sample_clouds::grid<2>({11, 41}, {1, 0}, {2, 1}))
+    points.push_back(x);
+  regions.resize(points.size(), 1);
+  const auto shapes = cell_shapes(surroundings, points, regions);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i][1] < .19 || points[i][1] > .81) // corners
+      continue;
+    EXPECT_NEAR(shapes.smoothing_lengths[i], .1, 1e-10);
+    EXPECT_NEAR(std::hypot(shapes.flattenings[i][0], shapes.flattenings[i][1]), regions[i] == 0 ? 0 : std::sqrt(15),
+                regions[i] == 0 ? 1e-4 : 1e-9); // sqrt of rounding
+  }
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "concave_samples.h"
 
 #include "meshless/cloud_generation/generator.h"
+#include "meshless/elasticity/cell_shapes.h"
 #include "meshless/elasticity/mixed_form/displacement_pressure.h"
 
 #include <numbers>
@@ -32,6 +33,13 @@ inline cloud::Particles<2> even_cloud(const domain::Boundary &boundary, std::siz
   };
   auto cloud = cloud_generation::generate({{boundary}, even, seed, n, {}});
   return jittered(boundary, std::move(cloud.positions), amount, seed);
+}
+
+/// The same particles with supports as long and wide as their cells.
+inline cloud::Particles<2> with_elliptic_supports(const domain::Boundary &boundary, const Material &material,
+                                                  const std::vector<Point2> &points) {
+  auto shapes = cell_shapes(Surroundings({{boundary, material}}), points, {});
+  return {points, std::move(shapes.smoothing_lengths), {}, {}, std::move(shapes.flattenings)};
 }
 
 /// Quarter of a ring with the radii 1 and 2: ids 0 on x2 = 0, 1 outside, 2 on x1 = 0, 3 inside.

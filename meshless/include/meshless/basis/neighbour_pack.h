@@ -42,6 +42,10 @@ public:
   Pack volumes(std::size_t a) const {
     return linear_algebra::gather<1>(particles_->volumes().data(), &slots_[a * n_lanes]);
   }
+  /// Component k of the flattening of the particles of a slot; there must be some.
+  Pack flattening(int k, std::size_t a) const {
+    return linear_algebra::gather<dim>(particles_->flattenings().data()->data() + k, &slots_[a * n_lanes]);
+  }
   /// Lengths of the lists; lanes beyond the last point repeat it.
   Pack counts() const { return linear_algebra::load(counts_.data()); }
   /// Scale of the monomials of every point: the harmonic mean of its neighbours' h, m.

@@ -58,6 +58,8 @@ public:
   const double *inverse_h() const { return inverse_h_.data(); }
   /// Volume of every candidate, m^dim, or null if the cloud has none.
   const double *volumes() const { return volumes_.empty() ? nullptr : volumes_.data(); }
+  /// Component k of the flattening of every candidate, or null if supports are round.
+  const double *flattening(int k) const { return flattenings_[k].empty() ? nullptr : flattenings_[k].data(); }
   /// Mean smoothing length: the scale of the monomials, m.
   double scale() const { return scale_; }
   MonomialTable &monomials() const { return monomials_; }
@@ -66,6 +68,7 @@ private:
   std::array<std::vector<double>, dim> coordinates_;
   std::vector<double> inverse_h_;
   std::vector<double> volumes_;
+  std::array<std::vector<double>, dim> flattenings_;
   double scale_ = 1;
   mutable MonomialTable monomials_;
 };

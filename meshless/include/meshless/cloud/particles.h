@@ -32,10 +32,13 @@ public:
   /// @param volumes m / rho of every particle in m^dim, as many as positions, all > 0; or none
   /// @param regions index >= 0 of the region of every particle, as many as positions; or none: all are in region 0.
   ///   Particles of different regions may be at the same place: on an interface.
-  /// @throws std::invalid_argument naming the particle for a non-finite position, a smoothing
+  /// @param flattenings f of every particle, as many as positions, without unit; or none: supports are round. With f a
+  ///   support is an ellipse: an offset d is s long in units of h, s^2 = (|d|^2 + (f . d)^2) / h^2, so that h is half
+  ///   of its length and it is sqrt(1 + |f|^2) times as short along f.
+  /// @throws std::invalid_argument naming the particle for a non-finite position or flattening, a smoothing
   ///   length or volume that is not positive, or two particles of a region at the same place
   Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths, std::vector<double> volumes = {},
-            std::vector<int> regions = {});
+            std::vector<int> regions = {}, std::vector<Point<dim>> flattenings = {});
 
   std::size_t size() const { return positions_.size(); }
   const Point<dim> &position(std::size_t i) const { return positions_[i]; }
@@ -49,6 +52,12 @@ public:
   /// Index of the region that the particle belongs to.
   int region(std::size_t i) const { return regions_.empty() ? 0 : regions_[i]; }
   std::span<const int> regions() const { return regions_; }
+  /// True if supports are ellipses.
+  bool has_flattenings() const { return !flattenings_.empty(); }
+  std::span<const Point<dim>> flattenings() const { return flattenings_; }
+  Point<dim> flattening(std::size_t i) const { return flattenings_.empty() ? Point<dim>{} : flattenings_[i]; }
+  /// s^2 of the offset from a particle to a point.
+  double squared_distance_in_h(std::size_t i, const Point<dim> &x) const;
   double largest_smoothing_length() const { return largest_smoothing_length_; }
   double smallest_smoothing_length() const { return smallest_smoothing_length_; }
   /// True if all smoothing lengths are equal to rounding.
@@ -59,6 +68,7 @@ private:
   std::vector<double> smoothing_lengths_;
   std::vector<double> volumes_;
   std::vector<int> regions_;
+  std::vector<Point<dim>> flattenings_;
   double largest_smoothing_length_ = 0;
   double smallest_smoothing_length_ = std::numeric_limits<double>::infinity();
   bool uniform_ = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshless/domain/boundary.h"
+#include "meshless/domain/ellipse.h"
 #include "meshless/domain/visibility.h"
 
 #include <array>
@@ -10,7 +11,7 @@
 
 namespace meshless::domain {
 
-/// Quadrature of the local subdomain of one particle: a disc cut by the boundary. Coordinates as
+/// Quadrature of the local subdomain of one particle: a disc or ellipse cut by the boundary. Coordinates as
 /// separate arrays, m; JxW in m^2 inside and m on the boundary.
 struct SubdomainQuadrature {
   std::array<std::vector<double>, 2> point;
@@ -91,11 +92,15 @@ public:
   ~SubdomainRule();
   SubdomainRule(SubdomainRule &&) noexcept;
 
-  /// Replaces `quadrature` by the rule of the disc around `centre`, reusing its storage.
-  void build(const Point2 &centre, double radius, SubdomainQuadrature &quadrature, const SubdomainWanted &wanted = {});
+  /// Replaces `quadrature` by the rule of the disc or ellipse around `centre`, reusing its storage.
+  ///
+  /// On an ellipse the angular points are those of the disc that it is stretched to; the boundary stays as it is.
+  /// @throws std::invalid_argument if the circle of an ellipse is wanted
+  void build(const Point2 &centre, const Ellipse &shape, SubdomainQuadrature &quadrature,
+             const SubdomainWanted &wanted = {});
 
-  /// Interior points of the whole disc of radius 1 about the origin: those of every whole disc, moved and scaled, in
-  /// the same order.
+  /// Interior points of the whole disc of radius 1 about the origin: those of every whole disc, moved and scaled (and
+  /// compressed to an ellipse), in the same order.
   const SubdomainQuadrature &unit_disc() const;
 
 private:

@@ -26,6 +26,7 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
       pressure_basis_(pressure_basis), parameters_(parameters), interfaces_(problem.regions),
       displacement_search_(particles, displacement_basis.support()),
       pressure_search_(particles, pressure_basis.support()), foreign_(surroundings.n_regions()) {
+  weak_form::require_shrinkable(parameters.subdomains, particles);
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r)
     regions_.push_back({weak_form::ConsistentSubdomain(surroundings.boundary(r), surroundings.visibility(r),
                                                        parameters.test_function, displacement_basis.order()),
@@ -36,7 +37,7 @@ void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matri
                          std::vector<double> &right_hand_side) {
   Stopwatch watch;
   place(particle);
-  regions_[region_].subdomain.build(centre_, radius_, points_);
+  regions_[region_].subdomain.build(centre_, shape_, points_);
   seconds.assembly += watch.lap();
   for (auto &fields : foreign_)
     fields.collected = false;
@@ -56,18 +57,18 @@ void Assembler::place(std::size_t particle) {
   region_ = static_cast<std::size_t>(particles_.region(particle));
   centre_ = particles_.position(particle);
   const double h = particles_.smoothing_length(particle);
-  radius_ = parameters_.test_radius * h;
+  shape_ = {parameters_.test_radius * h, particles_.flattening(particle)};
   tau_ = parameters_.stabilisation * h * h / (2 * surroundings_.material(region_).shear());
   own_pieces_ = surroundings_.boundary(region_).pieces_at(centre_);
   if (parameters_.subdomains == weak_form::Subdomains::shrunk)
-    radius_ = weak_form::shrunk_radius(surroundings_.visibility(region_), centre_, radius_, own_pieces_);
+    shape_ = weak_form::shrunk_radius(surroundings_.visibility(region_), centre_, shape_.radius, own_pieces_);
 }
 
 /// Particles of the region that reach into the subdomain and are visible from a point.
 void Assembler::collect(std::size_t region, const Point2 &seen_from, Fields &fields) {
   Stopwatch watch;
   const auto fill = [&](const cloud::CandidateSearch<2> &search, Field &field, std::vector<Coefficients> &rows) {
-    search.collect(centre_, radius_, field.candidates);
+    search.collect(centre_, shape_.radius, field.candidates);
     if (!surroundings_.simple())
       regions_[region].filter.apply(seen_from, field.candidates);
     field.batch.assign(particles_, field.candidates, centre_);
@@ -139,6 +140,13 @@ void Assembler::add_momentum(std::size_t begin, std::size_t size) {
   }
 }
 
+/// tau grad w at a point of the subdomain. In an ellipse tau is a tensor: alpha times the squares of h along it and
+/// across it, so that the scheme is that of a disc in the frame that stretches the ellipse to one.
+Vector2 Assembler::stabilising_gradient(std::size_t q) const {
+  const Point2 g = shape_.compressed(shape_.compressed({points_.gradient[0][q], points_.gradient[1][q]}));
+  return {tau_ * g[0], tau_ * g[1]};
+}
+
 /// int w (c1 div u - c2 p) - tau int w,i (p,i + mu u_i,jj + mu u_j,ji), all times mu: rows and columns then have the
 /// size of the others.
 void Assembler::add_continuity(std::size_t begin, std::size_t size) {
@@ -148,8 +156,12 @@ void Assembler::add_continuity(std::size_t begin, std::size_t size) {
   const double c2 = 1 / d.axial();
   const double *weight = &points_.quadrature.JxW[begin];
   const double *w = &points_.test[begin];
-  const double *w1 = &points_.gradient[0][begin];
-  const double *w2 = &points_.gradient[1][begin];
+  std::array<double, batch_size> tau1, tau2;
+  for (std::size_t q = 0; q < size; ++q) {
+    const auto tau = stabilising_gradient(begin + q);
+    tau1[q] = tau[0];
+    tau2[q] = tau[1];
+  }
   for (std::size_t j = 0; j < own_.u.candidates.size(); ++j) {
     const auto &values = own_.u.values;
     const double *phi1 = values.gradient(0, j);
@@ -159,8 +171,8 @@ void Assembler::add_continuity(std::size_t begin, std::size_t size) {
     const double *yy = values.hessian(2, j);
     double k1 = 0, k2 = 0;
     for (std::size_t q = 0; q < size; ++q) {
-      const double a1 = weight[q] * w1[q] * tau_ * mu;
-      const double a2 = weight[q] * w2[q] * tau_ * mu;
+      const double a1 = weight[q] * tau1[q] * mu;
+      const double a2 = weight[q] * tau2[q] * mu;
       k1 += c1 * weight[q] * w[q] * phi1[q] - a1 * (2 * xx[q] + yy[q]) - a2 * xy[q];
       k2 += c1 * weight[q] * w[q] * phi2[q] - a1 * xy[q] - a2 * (xx[q] + 2 * yy[q]);
     }
@@ -173,7 +185,7 @@ void Assembler::add_continuity(std::size_t begin, std::size_t size) {
     const double *psi2 = own_.p.values.gradient(1, j);
     double k = 0;
     for (std::size_t q = 0; q < size; ++q)
-      k -= weight[q] * (c2 * w[q] * psi[q] + tau_ * (w1[q] * psi1[q] + w2[q] * psi2[q]));
+      k -= weight[q] * (c2 * w[q] * psi[q] + tau1[q] * psi1[q] + tau2[q] * psi2[q]);
     own_.of_p[j][2][2] += mu * mu * k;
   }
 }
@@ -187,11 +199,13 @@ void Assembler::integrate_body_force() {
   for (std::size_t q = 0; q < n; ++q)
     positions_[q] = {quadrature.point[0][q], quadrature.point[1][q]};
   problem_.body_force(positions_, values_);
-  for (std::size_t q = 0; q < n; ++q)
+  for (std::size_t q = 0; q < n; ++q) {
+    const auto tau = stabilising_gradient(q);
     for (std::size_t k = 0; k < 2; ++k) {
       right_[k] += quadrature.JxW[q] * points_.test[q] * values_[q][k];
-      right_[2] += mu * tau_ * quadrature.JxW[q] * points_.gradient[k][q] * values_[q][k];
+      right_[2] += mu * quadrature.JxW[q] * tau[k] * values_[q][k];
     }
+  }
 }
 
 std::span<const double> Assembler::coordinates(const Part &part, int k) const {

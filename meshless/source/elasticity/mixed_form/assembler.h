@@ -52,6 +52,7 @@ private:
                 basis::Wanted wanted, Field &field);
 
   void integrate_domain();
+  Vector2 stabilising_gradient(std::size_t q) const;
   void add_momentum(std::size_t begin, std::size_t size);
   void add_continuity(std::size_t begin, std::size_t size);
   void integrate_body_force();
@@ -77,8 +78,8 @@ private:
 
   std::size_t region_ = 0;
   Point2 centre_{};
-  double radius_ = 0;
-  double tau_ = 0;
+  domain::Ellipse shape_{0}; ///< of the subdomain
+  double tau_ = 0;           ///< of a disc
   std::vector<std::size_t> own_pieces_;
   weak_form::ConsistentPoints points_;
   Fields own_;

@@ -32,6 +32,7 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
                      const Parameters &parameters)
     : problem_(problem), surroundings_(surroundings), particles_(particles), basis_(basis), parameters_(parameters),
       interfaces_(problem.regions), search_(particles, basis.support()), foreign_(surroundings.n_regions()) {
+  require_shrinkable(parameters.subdomains, particles);
   const bool consistent = parameters.integration == IntegrationRule::consistent && parameters.test_function;
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r) {
     regions_.push_back(
@@ -53,13 +54,13 @@ Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundin
 
 std::shared_ptr<const RepeatedNeighbourhoods> Assembler::find_repeated() {
   if (parameters_.repeated_rows == RepeatedRows::computed || !surroundings_.simple() || problem_.body_force ||
-      problem_.thermal_strain || !RepeatedNeighbourhoods::likely(particles_))
+      problem_.thermal_strain || particles_.has_flattenings() || !RepeatedNeighbourhoods::likely(particles_))
     return {};
   Stopwatch watch;
   std::vector<double> radii(particles_.size());
   for (std::size_t i = 0; i < radii.size(); ++i) {
     place(i);
-    radii[i] = radius_;
+    radii[i] = shape_.radius;
   }
   auto repeated = std::make_shared<const RepeatedNeighbourhoods>(surroundings_.boundary(0), search_, radii);
   seconds.neighbours += watch.lap();
@@ -72,7 +73,7 @@ void Assembler::assemble(std::size_t particle, linear_algebra::SparseRows &matri
     const auto &coefficients = coefficients_of_first(first);
     Stopwatch watch;
     place(particle);
-    repeated_->collect(centre_, radius_, own_.candidates);
+    repeated_->collect(centre_, shape_.radius, own_.candidates);
     seconds.neighbours += watch.lap();
     own_.k = coefficients;
     right_ = {0, 0}; // nothing acts inside, or rows are not copied
@@ -125,35 +126,35 @@ void Assembler::integrate() {
 void Assembler::build_subdomain(bool heaviside) {
   if (regions_[region_].consistent) {
     ConsistentPoints points{std::move(quadrature_), std::move(test_), std::move(edge_test_), std::move(test_gradient_)};
-    regions_[region_].consistent->build(centre_, radius_, points);
+    regions_[region_].consistent->build(centre_, shape_, points);
     quadrature_ = std::move(points.quadrature);
     test_ = std::move(points.test);
     edge_test_ = std::move(points.edge_test);
     test_gradient_ = std::move(points.gradient);
   } else
     regions_[region_].rule.build(
-        centre_, radius_, quadrature_,
+        centre_, shape_, quadrature_,
         {.interior = !heaviside || problem_.body_force || !densities_.empty(), .circle = heaviside});
 }
 
 void Assembler::place(std::size_t particle) {
   region_ = static_cast<std::size_t>(particles_.region(particle));
   centre_ = particles_.position(particle);
-  radius_ = parameters_.test_radius * particles_.smoothing_length(particle);
+  shape_ = {parameters_.test_radius * particles_.smoothing_length(particle), particles_.flattening(particle)};
   if (parameters_.subdomains == Subdomains::shrunk || parameters_.interior_rows == InteriorRows::collocated) {
     const auto own = surroundings_.boundary(region_).pieces_at(centre_);
     interior_ = own.empty();
     if (parameters_.subdomains == Subdomains::shrunk)
-      radius_ = shrunk_radius(surroundings_.visibility(region_), centre_, radius_, own);
+      shape_ = shrunk_radius(surroundings_.visibility(region_), centre_, shape_.radius, own);
   }
 }
 
 /// Particles of the region that reach into the subdomain and are visible from a point.
 void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &block) {
   if (repeated_)
-    repeated_->collect(centre_, radius_, block.candidates);
+    repeated_->collect(centre_, shape_.radius, block.candidates);
   else
-    search_.collect(centre_, radius_, block.candidates);
+    search_.collect(centre_, shape_.radius, block.candidates);
   if (!surroundings_.simple())
     regions_[region].filter.apply(seen_from, block.candidates);
   block.batch.assign(particles_, block.candidates, centre_);
@@ -164,7 +165,7 @@ void Assembler::collect(std::size_t region, const Point2 &seen_from, Block &bloc
 /// W_I and grad W_I at points.
 void Assembler::evaluate_test_function(std::span<const double> x, std::span<const double> y, bool with_gradient) {
   if (parameters_.test_function)
-    weak_form::evaluate_test_function(*parameters_.test_function, centre_, radius_, x, y, test_,
+    weak_form::evaluate_test_function(*parameters_.test_function, centre_, shape_, x, y, test_,
                                       with_gradient ? &test_gradient_ : nullptr);
   else
     test_.assign(x.size(), 1.0);
@@ -225,7 +226,7 @@ void Assembler::integrate_domain() {
   const std::span<const double> y = quadrature_.point[1];
   if (!regions_[region_].consistent) { // else it has been
     if (quadrature_.whole)
-      regions_[region_].whole_disc.stretch(radius_, test_, test_gradient_);
+      regions_[region_].whole_disc.stretch(shape_, test_, test_gradient_);
     else
       evaluate_test_function(x, y, true);
   }

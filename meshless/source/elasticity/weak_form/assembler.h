@@ -28,7 +28,7 @@ public:
   void assemble(std::size_t particle, linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side);
 
   /// The neighbourhoods whose rows are copies; null unless they are wanted, likely, and all there is to a row: one
-  /// convex region, and neither body force nor thermal strain.
+  /// convex region, round supports, and neither body force nor thermal strain.
   std::shared_ptr<const RepeatedNeighbourhoods> find_repeated();
   /// Copies rows from here on.
   /// @param repeated of this cloud, or null
@@ -106,7 +106,7 @@ private:
 
   std::size_t region_ = 0;
   Point2 centre_{};
-  double radius_ = 0;
+  domain::Ellipse shape_{0}; ///< of the subdomain
   bool interior_ = true;
   domain::SubdomainQuadrature quadrature_;
   Block own_;

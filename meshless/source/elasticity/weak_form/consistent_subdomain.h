@@ -12,18 +12,20 @@ namespace meshless::elasticity::weak_form {
 
 using domain::Point2;
 
-/// W_I at points, and its gradient unless that is null, for a kernel stretched so that its support ends at `radius`.
-void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre, double radius,
+/// W_I at points, and its gradient unless that is null, for a kernel stretched so that its support ends at the edge of
+/// the disc or ellipse.
+void evaluate_test_function(const kernels::Kernel &kernel, const Point2 &centre, const domain::Ellipse &shape,
                             std::span<const double> x, std::span<const double> y, std::vector<double> &test,
                             std::array<std::vector<double>, 2> *gradient);
 
 /// W_I and its gradient at the points of the whole disc of radius 1, computed once: on every other whole disc W_I is
-/// the same and its gradient that over the radius.
+/// the same and its gradient that over the radius; likewise on whole ellipses, stretched.
 struct UnitDiscTest {
   std::vector<double> test;
   std::array<std::vector<double>, 2> gradient;
 
-  void stretch(double radius, std::vector<double> &to_test, std::array<std::vector<double>, 2> &to_gradient) const;
+  void stretch(const domain::Ellipse &shape, std::vector<double> &to_test,
+               std::array<std::vector<double>, 2> &to_gradient) const;
 };
 
 /// Quadrature of one subdomain, W_I at its points and those of its edge, and the corrected gradient.
@@ -44,7 +46,7 @@ public:
 
   /// A narrow wedge may need more points before the correction exists: their number is doubled there.
   /// @throws std::invalid_argument naming the particle if that does not help
-  void build(const Point2 &centre, double radius, ConsistentPoints &points);
+  void build(const Point2 &centre, const domain::Ellipse &shape, ConsistentPoints &points);
 
 private:
   const domain::Boundary *boundary_;

@@ -1,6 +1,7 @@
 #include "subdomain_radius.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace meshless::elasticity::weak_form {
 
@@ -34,6 +35,11 @@ double shrunk_radius(const domain::Visibility &visibility, const Point2 &centre,
       result = distance;
   }
   return result;
+}
+
+void require_shrinkable(Subdomains subdomains, const cloud::Particles<2> &particles) {
+  if (subdomains == Subdomains::shrunk && particles.has_flattenings())
+    throw std::invalid_argument("subdomains that are ellipses are not shrunk: leave them whole");
 }
 
 } // namespace meshless::elasticity::weak_form

@@ -31,8 +31,10 @@ struct Parameters {
 ///   continuity  int w (c1 div u - c2 p) - tau int w,i (p,i + mu u_i,jj + mu u_j,ji + b_i) = 0,
 /// where int_u runs over the parts of the boundary that prescribe component i of displacement, cuts through the
 /// domain and interfaces, int_t over those that prescribe traction; c2 = 1 / (lambda + 2 mu), c1 = lambda c2,
-/// tau = alpha h_I^2 / (2 mu). The second derivatives are the basis' direct ones, so that the scheme is consistent:
-/// fields of displacement of degree m with pressures of degree m - 1 are exact.
+/// tau = alpha h_I^2 / (2 mu). Subdomains have the shape of the particles' supports; on an ellipse tau is a tensor, so
+/// that with lengths measured in h along it and across the method is that of discs. The second derivatives are the
+/// basis' direct ones, so that the scheme is consistent: fields of displacement of degree m with pressures of degree m
+/// - 1 are exact.
 ///
 /// Prescribed components replace the momentum rows of particles on the boundary: sum phi_J u_J = ubar at the particle.
 /// On an interface the softer side's displacement follows that of the other (see Interfaces), likewise collocated.
@@ -40,7 +42,8 @@ struct Parameters {
 ///
 /// @param displacement_basis of order m, with second derivatives
 /// @param pressure_basis of order m - 1, with first derivatives; a support smaller by h is customary
-/// @throws std::invalid_argument for an ill-posed problem, or a basis without second derivatives (order < 2);
+/// @throws std::invalid_argument for an ill-posed problem, shrunk subdomains that are ellipses, or a basis without
+/// second derivatives (order < 2);
 ///   basis::SingularMomentMatrix; linear_algebra::SolveError
 ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud::Particles<2>> particles,
                        std::shared_ptr<const basis::ShapeFunctions<2>> displacement_basis,

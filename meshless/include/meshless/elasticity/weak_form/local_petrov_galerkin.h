@@ -60,7 +60,7 @@ struct Parameters {
   Subdomains subdomains = Subdomains::whole;
   InteriorRows interior_rows = InteriorRows::weak;
   IntegrationRule integration = IntegrationRule::paper;
-  /// Only in one convex region without body force and thermal strain; elsewhere all are computed.
+  /// Only in one convex region with round supports, without body force and thermal strain; elsewhere all are computed.
   RepeatedRows repeated_rows = RepeatedRows::copied;
   /// nG: radial Gauss points; 4 nG in the angle, nG on every boundary part; with the Heaviside function nG + 2 on a
   /// whole circle, nG on every arc of one. The consistent rule has those of consistent_points.
