@@ -25,6 +25,10 @@ std::size_t bytes_allocated = 0;
     return memory;
   throw std::bad_alloc();
 }
+[[gnu::noinline]] void *operator new(std::size_t size, const std::nothrow_t &) noexcept { // else a sanitizer's own
+  bytes_allocated += size;
+  return std::malloc(size);
+}
 [[gnu::noinline]] void *operator new(std::size_t size, std::align_val_t alignment) {
   bytes_allocated += size;
   const auto a = static_cast<std::size_t>(alignment);
