@@ -52,21 +52,21 @@ std::size_t find_neighbours(const Offset<dim> &x, const CandidateBatch<dim> &can
 }
 
 /// Of the slots of a pack; those that a lane has not are outside.
-template <int dim>
+template <int dim, bool round>
 void measure_slots(const NeighbourPack<dim> &pack, double limit, double *squares) {
   const Pack counts = pack.counts();
   const Pack scale = pack.scale();
-  const bool round = !pack.particles().has_flattenings();
   for (std::size_t a = 0; a < pack.n_slots(); ++a) {
     Pack s_squared = 0;
     Pack along = 0;
     for (int k = 0; k < dim; ++k) {
       const Pack d = load(pack.offset(k) + a * n_lanes);
       s_squared += d * d;
-      if (!round)
+      if constexpr (!round)
         along += pack.flattening(k, a) * d;
     }
-    s_squared += along * along;
+    if constexpr (!round)
+      s_squared += along * along;
     const Pack to_h = scale * load(pack.inverse_h() + a * n_lanes);
     s_squared *= to_h * to_h;
     where(counts <= static_cast<double>(a), s_squared) = limit;
@@ -187,10 +187,12 @@ void compute_weights(const Weighing &weighing, const std::array<Pack, dim> &x, c
 template <int dim>
 void compute_weights(const Weighing &weighing, const NeighbourPack<dim> &pack, WeightDerivatives derivatives,
                      typename ShapeFunctions<dim>::Workspace &workspace) {
-  require_round(weighing, derivatives, !pack.particles().has_flattenings());
+  const bool round = !pack.particles().has_flattenings();
+  require_round(weighing, derivatives, round);
   make_room(pack.n_slots(), derivatives, workspace);
   const double limit = edge_limit(kernels::support_of(weighing.kernel), weighing.edge);
-  measure_slots<dim>(pack, limit, workspace.weights.data());
+  const auto measure = round ? measure_slots<dim, true> : measure_slots<dim, false>;
+  measure(pack, limit, workspace.weights.data());
   compute(weighing, derivatives, limit, pack.n_slots(), workspace);
   if (weighing.volumes)
     multiply_volumes<dim>(weighing, derivatives, pack.n_slots(), workspace, [&](std::size_t a) {

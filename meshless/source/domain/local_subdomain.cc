@@ -188,10 +188,11 @@ void SubdomainRule::Scratch::make_unit_disc(const SubdomainPoints &n) {
 void SubdomainRule::Scratch::add_whole_disc(SubdomainQuadrature &quadrature) const {
   const std::size_t n = unit_disc.JxW.size();
   const double radius = disc.shape.radius;
+  const auto compress = disc.shape.compressing();
   for (int k = 0; k < 2; ++k)
     quadrature.point[k].resize(n);
   for (std::size_t q = 0; q < n; ++q) {
-    const Point2 d = disc.shape.compressed({unit_disc.point[0][q], unit_disc.point[1][q]});
+    const Point2 d = compress({unit_disc.point[0][q], unit_disc.point[1][q]});
     for (int k = 0; k < 2; ++k)
       quadrature.point[k][q] = disc.centre[k] + radius * d[k];
   }

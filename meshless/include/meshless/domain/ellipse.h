@@ -27,17 +27,24 @@ struct Ellipse {
     const double along = dot(flattening, direction);
     return radius / std::sqrt(1 + along * along);
   }
-  Point2 stretched(const Point2 &d) const { return scaled_along(d, aspect()); }
-  Point2 compressed(const Point2 &d) const { return scaled_along(d, 1 / aspect()); }
+
+  /// A linear map with a symmetric matrix, for many offsets.
+  struct Map {
+    double xx = 1, xy = 0, yy = 1;
+    Point2 operator()(const Point2 &d) const { return {xx * d[0] + xy * d[1], xy * d[0] + yy * d[1]}; }
+  };
+  Map stretching() const { return round() ? Map{} : scaling_along(aspect()); }
+  Map compressing() const { return round() ? Map{} : scaling_along(1 / aspect()); }
+  Point2 stretched(const Point2 &d) const { return stretching()(d); }
+  Point2 compressed(const Point2 &d) const { return compressing()(d); }
 
 private:
   static double dot(const Point2 &a, const Point2 &b) { return a[0] * b[0] + a[1] * b[1]; }
   static double squared(const Point2 &a) { return dot(a, a); }
-  Point2 scaled_along(const Point2 &d, double factor) const {
-    if (round())
-      return d;
-    const double along = (factor - 1) * dot(flattening, d) / squared(flattening);
-    return {d[0] + along * flattening[0], d[1] + along * flattening[1]};
+  Map scaling_along(double factor) const {
+    const double along = (factor - 1) / squared(flattening);
+    return {1 + along * flattening[0] * flattening[0], along * flattening[0] * flattening[1],
+            1 + along * flattening[1] * flattening[1]};
   }
 };
 

@@ -42,8 +42,9 @@ public:
   SolveSeconds seconds;
 
 private:
-  /// Particles of one region that have a part in the rows, and their coefficients K_11, K_12, K_21, K_22.
+  /// K_11, K_12, K_21, K_22 of a row's particles.
   using Coefficients = std::array<std::vector<double>, 4>;
+  /// Particles of one region that have a part in the rows, and their coefficients.
   struct Block {
     std::vector<cloud::Index> candidates;
     basis::CandidateBatch<2> batch;
