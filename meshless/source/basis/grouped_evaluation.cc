@@ -169,7 +169,8 @@ GroupedEvaluation<dim>::GroupedEvaluation(const ShapeFunctions<dim> &basis, cons
 
 template <int dim>
 void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted,
-                                   const Visitor &visitor, const char *noun) const {
+                                   const Visitor &visitor, const char *noun,
+                                   std::span<const std::size_t> numbers) const {
   if (points.empty())
     return;
   const auto order = sort_points<dim>(points, mean_h_);
@@ -191,7 +192,9 @@ void GroupedEvaluation<dim>::visit(std::span<const cloud::Point<dim>> points, co
       try {
         require_regular(regularity, pack, *basis_);
       } catch (const SingularMomentMatrix &error) {
-        throw SingularMomentMatrix(fmt::format("{} {}: {}", noun, own[regularity.worst_point], error.what()));
+        const std::size_t worst = own[regularity.worst_point];
+        throw SingularMomentMatrix(
+            fmt::format("{} {}: {}", noun, numbers.empty() ? worst : numbers[worst], error.what()));
       }
       visitor(Group(own, pack, values, regularity));
     }

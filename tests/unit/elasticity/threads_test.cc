@@ -4,6 +4,8 @@
 #include "concave_samples.h"
 #include "mixed_samples.h"
 
+#include "unit/linear_algebra/refusal.h"
+
 #include "meshless/parallel/threads.h"
 
 #include <gtest/gtest.h>
@@ -100,6 +102,34 @@ TEST(Threads, the_first_fault_is_reported) {
   const Threads threads(4);
   for (int k = 0; k < 20; ++k)
     EXPECT_EQ(message(), alone);
+}
+
+/// The second of two regions has four particles, too few: one of them is named by its number in the cloud.
+TEST(Threads, a_particle_without_a_basis_is_named_by_its_number) {
+  const domain::Boundary left(
+      {{{0, 0}, {1, 0}, 0}, {{1, 0}, {1, 1}, interface_id}, {{1, 1}, {0, 1}, 0}, {{0, 1}, {0, 0}, 0}});
+  const domain::Boundary right(
+      {{{1, 0}, {2, 0}, 0}, {{2, 0}, {2, 1}, 0}, {{2, 1}, {1, 1}, 0}, {{1, 1}, {1, 0}, interface_id}});
+  const auto problem = problem_on({{left, steel}, {right, steel}}, linear_displacement(), {0});
+  auto points = sample_clouds::grid<2>({30, 30}, {0, 0}, {1, 1});
+  std::vector<int> regions(points.size(), 0);
+  for (const Point2 &x : {Point2{1, 0}, Point2{2, 0}, Point2{2, 1}, Point2{1, 1}}) {
+    points.push_back(x);
+    regions.push_back(1);
+  }
+  const auto message = [&](double h) {
+    return refusal::message_of<basis::SingularMomentMatrix>([&] {
+      solve(WeakForm::weak1, problem, {points, std::vector<double>(points.size(), h), {}, regions}, 2);
+    });
+  };
+  const std::string alone = message(1. / 29);
+  EXPECT_TRUE(alone.starts_with("particle 90")) << alone; // 900 ... 903
+  const std::string none = message(1e-3);                 // no particle has neighbours, and many threads meet one
+  const Threads threads(4);
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(message(1. / 29), alone);
+    EXPECT_EQ(message(1e-3), none);
+  }
 }
 
 TEST(Threads, none_is_refused) {

@@ -58,9 +58,10 @@ public:
 
   /// Visits every point once.
   /// @param noun what the points are, for the message: "particle" or "point"
-  /// @throws SingularMomentMatrix where the basis does not exist, naming the point by its index
+  /// @param numbers theirs, for the message; none: their indices
+  /// @throws SingularMomentMatrix where the basis does not exist, naming the point by its number
   void visit(std::span<const cloud::Point<dim>> points, const Wanted &wanted, const Visitor &visitor,
-             const char *noun = "point") const;
+             const char *noun = "point", std::span<const std::size_t> numbers = {}) const;
 
 private:
   const ShapeFunctions<dim> *basis_;

@@ -321,7 +321,7 @@ void add_rows(const PlaneProblem &problem, const Surroundings &surroundings, con
                 add(members[group.points[p]], p, group);
               seconds.assembly += watch.lap();
             },
-            "particle");
+            "particle", members);
     };
     visit(collocation.members(r), {.value = true, .gradient = true, .hessian = true},
           [&](std::size_t i, std::size_t p, const auto &group) {

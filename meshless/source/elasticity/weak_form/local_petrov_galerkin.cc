@@ -1,10 +1,12 @@
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 
+#include "../../parallel/ordered_chunks.h"
 #include "../row_assembly.h"
 #include "assembler.h"
 
 #include "meshless/linear_algebra/sparse_rows.h"
 #include "meshless/linear_algebra/stopwatch.h"
+#include "meshless/parallel/threads.h"
 
 #include <fmt/format.h>
 
@@ -20,17 +22,39 @@ namespace {
 /// there first.
 void require_basis_at_particles(const Surroundings &surroundings, const cloud::Particles<2> &particles,
                                 const basis::ShapeFunctions<2> &basis) {
+  constexpr std::size_t chunk = 512;
   const cloud::CandidateSearch<2> search(particles, basis.support());
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r) {
-    std::vector<Point2> own;
+    std::vector<Point2> positions;
+    std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < particles.size(); ++i)
-      if (static_cast<std::size_t>(particles.region(i)) == r)
-        own.push_back(particles.position(i));
-    RegionFilter filter(surroundings, particles, r);
-    if (!own.empty())
+      if (static_cast<std::size_t>(particles.region(i)) == r) {
+        positions.push_back(particles.position(i));
+        numbers.push_back(i);
+      }
+    const auto visit = [&](std::size_t begin, std::size_t end) {
+      RegionFilter filter(surroundings, particles, r);
       basis::GroupedEvaluation<2>(basis, search, surroundings.simple() ? nullptr : &filter)
           .visit(
-              own, {}, [](const auto &) {}, "particle");
+              std::span(positions).subspan(begin, end - begin), {}, [](const auto &) {}, "particle",
+              std::span(numbers).subspan(begin, end - begin));
+    };
+    bool regular = false;
+    if (parallel::threads() > 1)
+      try {
+        struct Nothing {};
+        parallel::in_ordered_chunks<Nothing>(
+            positions.size(), chunk, parallel::threads(),
+            [&](std::size_t begin, std::size_t end) {
+              visit(begin, end);
+              return Nothing();
+            },
+            [](const Nothing &) {});
+        regular = true;
+      } catch (const basis::SingularMomentMatrix &) { // all together below: the message is that of one thread
+      }
+    if (!regular)
+      visit(0, positions.size());
   }
 }
 
