@@ -110,32 +110,39 @@ std::vector<HardCase> select(std::vector<HardCase> cases, const Selection &selec
   return cases;
 }
 
-std::vector<MatrixCell> run_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options) {
+std::optional<MatrixCell> run_cell(const HardCase &hard_case, const std::string &method, const MatrixOptions &options) {
+  if (options.stop_requested && options.stop_requested())
+    return {};
+  if (options.progress)
+    options.progress(fmt::format("{}: {}, {}", hard_case.family, hard_case.name, method));
   metrics::use_threads(1); // BLAS takes all cores otherwise, which small systems only wait for
+  MatrixCell cell;
+  cell.family = hard_case.family;
+  cell.name = hard_case.name;
+  cell.method = method;
+  cell.threshold = hard_case.threshold;
+  meshless::linear_algebra::Stopwatch watch;
+  const auto outcome =
+      study::run_isolated([&] { return outcome_of(hard_case, method); },
+                          {.seconds = options.max_seconds, .memory_bytes = {}}, options.stop_requested);
+  cell.seconds = watch.lap();
+  if (outcome.kind == study::IsolatedOutcome::Kind::interrupted)
+    return {};
+  if (outcome.kind == study::IsolatedOutcome::Kind::finished)
+    fill(hard_case, outcome.payload, cell);
+  else
+    cell.reason = outcome.reason;
+  return cell;
+}
+
+std::vector<MatrixCell> run_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options) {
   std::vector<MatrixCell> cells;
   for (const auto &hard_case : cases)
     for (const auto &method : hard_case.methods) {
-      if (options.stop_requested && options.stop_requested())
+      auto cell = run_cell(hard_case, method, options);
+      if (!cell)
         return cells;
-      if (options.progress)
-        options.progress(fmt::format("{}: {}, {}", hard_case.family, hard_case.name, method));
-      MatrixCell cell;
-      cell.family = hard_case.family;
-      cell.name = hard_case.name;
-      cell.method = method;
-      cell.threshold = hard_case.threshold;
-      meshless::linear_algebra::Stopwatch watch;
-      const auto outcome =
-          study::run_isolated([&] { return outcome_of(hard_case, method); },
-                              {.seconds = options.max_seconds, .memory_bytes = {}}, options.stop_requested);
-      cell.seconds = watch.lap();
-      if (outcome.kind == study::IsolatedOutcome::Kind::interrupted)
-        return cells;
-      if (outcome.kind == study::IsolatedOutcome::Kind::finished)
-        fill(hard_case, outcome.payload, cell);
-      else
-        cell.reason = outcome.reason;
-      cells.push_back(std::move(cell));
+      cells.push_back(std::move(*cell));
     }
   return cells;
 }

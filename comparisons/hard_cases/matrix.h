@@ -50,7 +50,11 @@ struct MatrixOptions {
   std::function<void(const std::string &)> progress;
 };
 
-/// Runs every case x method in a child process of its own, so that a crash or a hang ends that cell alone.
+/// Runs one in a child process of its own, so that a crash or a hang ends that cell alone.
+/// @return none if a stop was requested
+std::optional<MatrixCell> run_cell(const HardCase &hard_case, const std::string &method, const MatrixOptions &options);
+
+/// Runs every case x method, as far as no stop is requested.
 std::vector<MatrixCell> run_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options);
 
 /// What a method's outcome is worth: see CellVerdict.

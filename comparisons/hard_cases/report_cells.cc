@@ -2,48 +2,82 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 namespace comparisons::hard_cases {
 
-std::vector<reports::Cell> report_cells(const std::vector<HardCase> &cases, const std::vector<MatrixCell> &cells) {
-  std::vector<reports::Cell> result;
-  for (const auto &from : cells) {
-    reports::Cell cell;
-    cell.benchmark = "hard_cases";
-    cell.scene = from.family;
-    cell.variant = from.name;
-    cell.method = cell.label = from.method;
-    cell.level = "-";
-    cell.parameters["verdict"] = to_text(from.verdict);
-    cell.parameters["threshold"] = from.threshold;
-    const auto hard_case = std::find_if(cases.begin(), cases.end(), [&](const HardCase &candidate) {
-      return candidate.family == from.family && candidate.name == from.name;
-    });
-    if (hard_case != cases.end()) {
-      cell.parameters["meaning"] = hard_case->meaning;
-      cell.parameters["reference"] = hard_case->reference;
-      cell.parameters["reason"] = hard_case->reason;
+namespace {
+
+/// Of a cell that has all but its verdict.
+void set_verdict(reports::Cell &cell) {
+  auto verdict = CellVerdict::degrades;
+  if (cell.status == reports::Status::failed)
+    verdict = CellVerdict::fails;
+  else if (cell.status == reports::Status::refused)
+    verdict = CellVerdict::refused;
+  else if (cell.errors.at("error_of_case") <= cell.parameters.at("threshold").get<double>())
+    verdict = CellVerdict::holds;
+  cell.parameters["verdict"] = to_text(verdict);
+}
+
+} // namespace
+
+reports::Cell described_cell(const HardCase &hard_case, const std::string &method) {
+  reports::Cell cell;
+  cell.benchmark = benchmark_name;
+  cell.scene = hard_case.family;
+  cell.variant = hard_case.name;
+  cell.method = cell.label = method;
+  cell.level = "-";
+  cell.parameters["threshold"] = hard_case.threshold;
+  cell.parameters["meaning"] = hard_case.meaning;
+  cell.parameters["reference"] = hard_case.reference;
+  cell.parameters["reason"] = hard_case.reason;
+  return cell;
+}
+
+reports::Cell report_cell(const HardCase &hard_case, const MatrixCell &from) {
+  auto cell = described_cell(hard_case, from.method);
+  cell.parameters["verdict"] = to_text(from.verdict);
+  const bool fails = from.verdict == CellVerdict::fails;
+  cell.status = fails                                  ? reports::Status::failed
+                : from.verdict == CellVerdict::refused ? reports::Status::refused
+                                                       : reports::Status::ok;
+  cell.expected = !fails;
+  cell.reason = from.reason;
+  if (fails && from.error)
+    cell.reason += fmt::format(": {:.2g}", *from.error);
+  cell.warnings = from.warnings;
+  if (from.error)
+    cell.errors["error_of_case"] = *from.error;
+  if (from.value)
+    cell.quantities["value"] = *from.value;
+  for (const auto &[name, value] : from.indicators)
+    cell.quantities["indicator_" + name] = value;
+  cell.quantities["wall_seconds"] = from.seconds;
+  return cell;
+}
+
+std::vector<reports::Cell> run_reported_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options,
+                                               study::CellJournal &journal, const std::string &identity) {
+  std::vector<reports::Cell> cells;
+  for (const auto &hard_case : cases)
+    for (const auto &method : hard_case.methods) {
+      const auto described = described_cell(hard_case, method);
+      if (auto kept = journal.recall(identity, described)) {
+        set_verdict(kept->cell);
+        cells.push_back(std::move(kept->cell));
+        continue;
+      }
+      const auto run = run_cell(hard_case, method, options);
+      if (!run)
+        return cells;
+      auto cell = report_cell(hard_case, *run);
+      cells.push_back(cell);
+      cell.parameters = described.parameters; // by which it will be looked for
+      journal.keep(identity, {std::move(cell), {}, true});
     }
-    const bool fails = from.verdict == CellVerdict::fails;
-    cell.status = fails                                  ? reports::Status::failed
-                  : from.verdict == CellVerdict::refused ? reports::Status::refused
-                                                         : reports::Status::ok;
-    cell.expected = !fails;
-    cell.reason = from.reason;
-    if (fails && from.error)
-      cell.reason += fmt::format(": {:.2g}", *from.error);
-    cell.warnings = from.warnings;
-    if (from.error)
-      cell.errors["error_of_case"] = *from.error;
-    if (from.value)
-      cell.quantities["value"] = *from.value;
-    for (const auto &[name, value] : from.indicators)
-      cell.quantities["indicator_" + name] = value;
-    cell.quantities["wall_seconds"] = from.seconds;
-    result.push_back(std::move(cell));
-  }
-  return result;
+  return cells;
 }
 
 } // namespace comparisons::hard_cases

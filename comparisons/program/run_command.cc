@@ -30,9 +30,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The benchmark that is a matrix, not scenes.
-constexpr const char *hard_cases_name = "hard_cases";
-
 /// What a run is about to do; complete before anything is computed.
 struct Plan {
   std::vector<scene::Scene> scenes;
@@ -140,7 +137,8 @@ void settle_published(const Plan &plan, reports::Results &results) {
   }
 }
 
-void add_hard_cases(const Plan &plan, bool quiet, const study::Catalogue &catalogue, reports::Results &results) {
+void add_hard_cases(const Plan &plan, bool quiet, const study::Catalogue &catalogue, study::CellJournal &journal,
+                    reports::Results &results) {
   const auto cases =
       hard_cases::select(hard_cases::case_table(catalogue),
                          {.cases = {}, .methods = {}, .quick = plan.hard_cases == Plan::HardCases::quick});
@@ -148,7 +146,8 @@ void add_hard_cases(const Plan &plan, bool quiet, const study::Catalogue &catalo
   hard_cases::MatrixOptions options;
   options.stop_requested = [] { return Interrupt::requested(); };
   options.progress = [&](const std::string &text) { progress.show(text); };
-  auto cells = hard_cases::report_cells(cases, hard_cases::run_matrix(cases, options));
+  auto cells =
+      hard_cases::run_reported_matrix(cases, options, journal, study::identity_of(results.program, results.machine));
   results.cells.insert(results.cells.end(), std::make_move_iterator(cells.begin()),
                        std::make_move_iterator(cells.end()));
 }
@@ -195,7 +194,7 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
     }
   }
   if (plan.hard_cases != Plan::HardCases::none && !Interrupt::requested())
-    add_hard_cases(plan, options.quiet, catalogue, results);
+    add_hard_cases(plan, options.quiet, catalogue, journal, results);
   results.interrupted = Interrupt::requested();
   results.machine.competing_cores = others.cores();
   results.machine.load_at_end = metrics::current_load();
@@ -275,7 +274,7 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
   for (const auto &benchmark : catalogue.benchmarks)
     if (!benchmark.description.own_geometry)
       known.push_back(benchmark.description.name);
-  known.emplace_back(hard_cases_name);
+  known.emplace_back(hard_cases::benchmark_name);
   const auto all = known;
   known.emplace_back("examples");
   std::vector<fs::path> files;
@@ -288,7 +287,7 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
       fmt::print(stderr, "error: no benchmark '{}'; there are {}{}\n", name, fmt::join(known, ", "), hint);
       return usage_error;
     }
-    if (name == hard_cases_name)
+    if (name == hard_cases::benchmark_name)
       continue; // has no scenes
     const auto scenes = name == "examples" ? example_scenes() : shipped_scenes(name);
     files.insert(files.end(), scenes.begin(), scenes.end());
@@ -298,7 +297,7 @@ int compare_benchmarks(const std::vector<std::string> &benchmarks, bool full, co
     return invalid_scene;
   Plan plan;
   const auto &chosen = benchmarks.empty() ? all : benchmarks;
-  if (std::find(chosen.begin(), chosen.end(), hard_cases_name) != chosen.end())
+  if (std::find(chosen.begin(), chosen.end(), hard_cases::benchmark_name) != chosen.end())
     plan.hard_cases = full ? Plan::HardCases::all : Plan::HardCases::quick;
   if (!options.sets.empty())
     plan.missing = ledger::MissingCells::leave_out;

@@ -36,6 +36,12 @@ void add_files(const nlohmann::ordered_json &json, const fs::path &folder, scene
   }
 }
 
+void add_machine(const reports::Program &program, const reports::Machine &machine, scene::Hash &hash) {
+  for (const auto &text : {program.version, program.commit, program.build_type, program.flags, machine.cpu,
+                           machine.blas, fmt::format("{} {}", machine.cores, machine.memory_bytes)})
+    hash.add(text);
+}
+
 std::string key_of(const std::string &identity, const reports::Cell &cell) {
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", identity, cell.benchmark, cell.scene, cell.variant, cell.label,
                      cell.level, cell.parameters.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -50,10 +56,14 @@ std::string key_of(const std::string &identity, const reports::Cell &cell) {
 std::string identity_of(const scene::Scene &scene, const reports::Program &program, const reports::Machine &machine) {
   scene::Hash hash;
   hash.add(scene.hash);
-  for (const auto &text : {program.version, program.commit, program.build_type, program.flags, machine.cpu,
-                           machine.blas, fmt::format("{} {}", machine.cores, machine.memory_bytes)})
-    hash.add(text);
+  add_machine(program, machine, hash);
   add_files(scene::to_json(scene), fs::path(scene.file).parent_path(), hash);
+  return hash.text();
+}
+
+std::string identity_of(const reports::Program &program, const reports::Machine &machine) {
+  scene::Hash hash;
+  add_machine(program, machine, hash);
   return hash.text();
 }
 

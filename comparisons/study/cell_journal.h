@@ -16,6 +16,8 @@ namespace comparisons::study {
 /// text and overrides, the contents of every file that a text of the scene names, the program with its flags, and the
 /// machine. Cells with the same identity may stand for each other, their seconds included.
 std::string identity_of(const scene::Scene &scene, const reports::Program &program, const reports::Machine &machine);
+/// The same of cells that no scene describes.
+std::string identity_of(const reports::Program &program, const reports::Machine &machine);
 
 /// A cell of a run that goes on.
 struct KeptCell {

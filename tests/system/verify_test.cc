@@ -1,15 +1,29 @@
 // `petrov verify` as a user types it.
 
-#include "system/program_here.h"
+#include "system/program_process.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
 
 namespace {
 
 using namespace system_tests;
 
 bool has(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
+
+std::string name_of(const nlohmann::json &cell) {
+  std::string name;
+  for (const auto *part : {"scene", "variant", "label"})
+    name += cell.at(part).get<std::string>() + "; ";
+  return name;
+}
 
 TEST(Verify, prints_the_matrix_and_writes_it_as_data) {
   const Folder folder;
@@ -34,19 +48,48 @@ TEST(Verify, prints_the_matrix_and_writes_it_as_data) {
   }
 }
 
+/// Killed on its way, and gone on with.
 TEST(Verify, its_quick_matrix_is_a_benchmark_of_compare) {
   const Folder folder;
-  const auto ended = run_program({"compare", "hard_cases", "--output", "out", "--quiet"}, folder.path());
+  const std::vector<std::string> words{"compare", "hard_cases", "--output", "out", "--resume"};
+  const auto lines = [&] {
+    const auto text = contents(folder / "out/.cells");
+    return std::count(text.begin(), text.end(), '\n') / 2; // one before every cell
+  };
+  Process process(words, folder.path());
+  for (int i = 0; i < 20000 && lines() < 40; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  process.send(SIGKILL);
+  process.wait();
+  const auto n_kept = lines();
+  ASSERT_GE(n_kept, 40);
+  std::map<std::string, double> kept; // seconds
+  std::istringstream text(contents(folder / "out/.cells"));
+  for (std::string line; std::getline(text, line);)
+    if (!line.empty()) {
+      const auto cell = nlohmann::json::parse(line).at("results").at("cells").at(0);
+      if (cell.at("status") == "ok")
+        kept[name_of(cell)] = cell.at("quantities").at("wall_seconds");
+    }
+  const auto ended = run_program(words, folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_TRUE(has(ended.err, fmt::format("{} of ", n_kept))) << ended.err;
   EXPECT_TRUE(has(ended.out, "Hard cases: ")) << ended.out;
   EXPECT_LT(ended.out.size(), 4000u); // the terminal gets the counts
   const auto json = nlohmann::json::parse(contents(folder / "out/results.json"));
   EXPECT_GT(json.at("cells").size(), 500u);
+  std::size_t n_same = 0;
   for (const auto &cell : json.at("cells")) {
     EXPECT_EQ(cell.at("benchmark"), "hard_cases");
     EXPECT_NE(cell.at("parameters").at("verdict"), "fails") << cell;
     EXPECT_FALSE(cell.at("parameters").at("reference").get<std::string>().empty());
+    if (const auto before = kept.find(name_of(cell)); before != kept.end()) {
+      ++n_same;
+      EXPECT_EQ(cell.at("quantities").at("wall_seconds"), before->second) << before->first;
+    }
   }
+  EXPECT_GT(n_same, 10u);
+  EXPECT_EQ(n_same, kept.size());
   for (const auto *file : {"out/report.html", "out/results.md", "out/results.txt", "out/results_tables.tex"})
     EXPECT_TRUE(has(contents(folder / file), "Hard cases: incompressibility")) << file;
 }
