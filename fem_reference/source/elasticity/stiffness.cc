@@ -1,5 +1,6 @@
 #include "stiffness.h"
 
+#include "../parallel/node_bands.h"
 #include "fem_reference/errors.h"
 
 #include <array>
@@ -9,6 +10,8 @@
 
 namespace fem_reference::elasticity {
 namespace {
+using parallel::NodeBand;
+
 /// Rows of n values are padded to whole vectors.
 constexpr int padded(int n) { return (n + 7) / 8 * 8; }
 
@@ -100,11 +103,14 @@ bool integrate_cell(const PaddedTable<n_nodes> &table, const Discretisation &dis
   return true;
 }
 
+/// To the columns of the band.
 template <int n_nodes>
 void add_to_matrix(const GradientProducts<n_nodes> &products, double lambda, double mu, const unsigned *nodes,
-                   linear_algebra::BlockMatrix &matrix) {
+                   const NodeBand &band, linear_algebra::BlockMatrix &matrix) {
   for (int b = 0; b < n_nodes; ++b) {
     const unsigned column = nodes[b];
+    if (!band.holds(column))
+      continue;
     const int first_block = matrix.block_start[column];
     const int n_blocks = matrix.block_start[column + 1] - first_block;
     double *column_0 = matrix.values.data() + matrix.first_entry(column);
@@ -181,20 +187,24 @@ void add_internal_forces(const ReferenceElement &element, const Discretisation &
   result.energy += .5 * twice_energy;
 }
 
+/// The columns of one band. Returns the first cell whose Jacobian is not positive, at which it ends, or n_cells.
 template <int n_nodes>
-void assemble(const ReferenceElement &element, const Discretisation &discretisation,
-              std::span<const Material> materials, linear_algebra::BlockMatrix &matrix) {
+std::size_t assemble(const ReferenceElement &element, const Discretisation &discretisation,
+                     std::span<const Material> materials, const NodeBand &band, linear_algebra::BlockMatrix &matrix) {
   const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
   GradientProducts<n_nodes> products;
   for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
     if (discretisation.n_vertices[c] != element.n_vertices())
       continue;
+    if (!band.touches(discretisation.nodes_of(c)))
+      continue;
     const auto &material = materials[static_cast<std::size_t>(discretisation.regions[c])];
     const unsigned *nodes = discretisation.nodes_of(c).data();
     if (!integrate_cell(table, discretisation, nodes, products))
-      refuse_jacobian(discretisation, c);
-    add_to_matrix(products, material.lambda(), material.mu(), nodes, matrix);
+      return c;
+    add_to_matrix(products, material.lambda(), material.mu(), nodes, band, matrix);
   }
+  return discretisation.n_cells;
 }
 
 /// Calls function(n_nodes, element) for both shapes, with n_nodes a compile-time constant: it tells the shape and the
@@ -247,7 +257,12 @@ void refuse_jacobian(const Discretisation &discretisation, std::size_t c) {
 void assemble_stiffness(const Discretisation &discretisation, std::span<const Material> materials,
                         linear_algebra::BlockMatrix &matrix) {
   for_each_element(discretisation, [&](auto n_nodes, const ReferenceElement &element) {
-    assemble<n_nodes()>(element, discretisation, materials, matrix);
+    std::vector<std::size_t> faulty(static_cast<std::size_t>(threads()));
+    parallel::for_each_node_band(discretisation.n_nodes(), [&](const NodeBand &band, int k) {
+      faulty[static_cast<std::size_t>(k)] = assemble<n_nodes()>(element, discretisation, materials, band, matrix);
+    });
+    if (const auto first = *std::min_element(faulty.begin(), faulty.end()); first < discretisation.n_cells)
+      refuse_jacobian(discretisation, first);
   });
 }
 
