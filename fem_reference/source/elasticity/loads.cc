@@ -64,10 +64,8 @@ std::vector<Vector> point_forces(const VectorField &body_force, const ShapeTable
 /// The body force on the cells of one shape.
 void add_body_force(const VectorField &body_force, const ReferenceElement &element,
                     const Discretisation &discretisation, Loads &loads) {
-  std::vector<std::size_t> cells;
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
-    if (discretisation.n_vertices[c] == element.n_vertices())
-      cells.push_back(c);
+  const auto cells =
+      cells_touching(parallel::all_nodes(discretisation.n_nodes()), discretisation, element.n_vertices());
   const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n_points = static_cast<std::size_t>(table.n_points);
   const auto make = [&](std::size_t begin, std::size_t end) {

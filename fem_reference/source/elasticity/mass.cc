@@ -30,12 +30,8 @@ void for_each_cell_mass(const ReferenceElement &element, const Discretisation &d
   const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n = static_cast<std::size_t>(table.n_nodes);
   std::vector<double> mass(n * n);
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
-    if (discretisation.n_vertices[c] != element.n_vertices())
-      continue;
+  for (const std::size_t c : cells_touching(band, discretisation, element.n_vertices())) {
     const auto nodes = discretisation.nodes_of(c);
-    if (!band.touches(nodes))
-      continue;
     const double density = densities[static_cast<std::size_t>(discretisation.regions[c])];
     mass.assign(n * n, 0);
     for (std::size_t q = 0; q < static_cast<std::size_t>(table.n_points); ++q) {
@@ -63,9 +59,7 @@ void lump_quadrilaterals(const Discretisation &discretisation, std::span<const d
     ReferenceElement::Values unused;
     element.evaluate(element.nodes()[a], unused, slope_1[a], slope_2[a]);
   }
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c) {
-    if (discretisation.n_vertices[c] != 4)
-      continue;
+  for (const std::size_t c : cells_touching(band, discretisation, 4)) {
     const auto nodes = discretisation.nodes_of(c);
     const double density = densities[static_cast<std::size_t>(discretisation.regions[c])];
     for (std::size_t a = 0; a < n; ++a)

@@ -20,6 +20,9 @@ struct NodeBand {
   }
 };
 
+inline NodeBand all_nodes(std::size_t n_nodes) { return {0, static_cast<unsigned>(n_nodes)}; }
+
+/// Band k of n_bands of about one length.
 inline NodeBand node_band(std::size_t n_nodes, int n_bands, int k) {
   const auto at = [&](int i) {
     return static_cast<unsigned>(n_nodes * static_cast<std::size_t>(i) / static_cast<std::size_t>(n_bands));
