@@ -84,37 +84,60 @@ void gather_positions(const Discretisation &discretisation, const unsigned *node
   }
 }
 
+/// Gradients in space of one cell's shape functions at the quadrature points, and those times JxW.
+template <int n_nodes>
+struct CellGradients {
+  explicit CellGradients(int n_points)
+      : gradient_1(n_points), gradient_2(n_points), weighted_1(n_points), weighted_2(n_points) {}
+
+  std::vector<NodeRow<n_nodes>> gradient_1;
+  std::vector<NodeRow<n_nodes>> gradient_2;
+  std::vector<NodeRow<n_nodes>> weighted_1;
+  std::vector<NodeRow<n_nodes>> weighted_2;
+};
+
 /// Returns false if the Jacobian is not positive at some quadrature point.
 template <int n_nodes>
-bool integrate_cell(const PaddedTable<n_nodes> &table, const Discretisation &discretisation, const unsigned *nodes,
-                    GradientProducts<n_nodes> &products) {
-  NodeRow<n_nodes> x1{}, x2{}, g1, g2;
+bool map_cell(const PaddedTable<n_nodes> &table, const Discretisation &discretisation, const unsigned *nodes,
+              CellGradients<n_nodes> &cell) {
+  NodeRow<n_nodes> x1{}, x2{};
   gather_positions(discretisation, nodes, x1, x2);
-  products = {};
   for (int q = 0; q < table.n_points; ++q) {
-    const double jxw = map_gradients(table, q, x1, x2, g1, g2);
+    const double jxw = map_gradients(table, q, x1, x2, cell.gradient_1[q], cell.gradient_2[q]);
     if (!(jxw > 0))
       return false;
     for (int a = 0; a < n_nodes; ++a) {
-      // In lanes by hand: the compiler unrolls all of it and shuffles, which takes three times as long.
-      const Lanes w1 = jxw * g1[a];
-      const Lanes w2 = jxw * g2[a];
-      for (std::size_t b = 0; b < padded(n_nodes); b += Lanes::size()) {
-        const Lanes h1(&g1[b], simd::vector_aligned);
-        const Lanes h2(&g2[b], simd::vector_aligned);
-        Lanes m11(&products.m11[a][b], simd::vector_aligned);
-        Lanes m12(&products.m12[a][b], simd::vector_aligned);
-        Lanes m22(&products.m22[a][b], simd::vector_aligned);
-        m11 += w1 * h1;
-        m12 += w1 * h2;
-        m22 += w2 * h2;
-        m11.copy_to(&products.m11[a][b], simd::vector_aligned);
-        m12.copy_to(&products.m12[a][b], simd::vector_aligned);
-        m22.copy_to(&products.m22[a][b], simd::vector_aligned);
-      }
+      cell.weighted_1[q][a] = jxw * cell.gradient_1[q][a];
+      cell.weighted_2[q][a] = jxw * cell.gradient_2[q][a];
     }
   }
   return true;
+}
+
+/// A row at a time, which stays in registers. In lanes by hand: the compiler unrolls all and shuffles, which takes
+/// three times as long.
+template <int n_nodes>
+void multiply_gradients(const CellGradients<n_nodes> &cell, GradientProducts<n_nodes> &products) {
+  constexpr std::size_t n_packs = padded(n_nodes) / Lanes::size();
+  for (int a = 0; a < n_nodes; ++a) {
+    std::array<Lanes, n_packs> m11{}, m12{}, m22{};
+    for (std::size_t q = 0; q < cell.gradient_1.size(); ++q) {
+      const Lanes w1 = cell.weighted_1[q][a];
+      const Lanes w2 = cell.weighted_2[q][a];
+      for (std::size_t k = 0; k < n_packs; ++k) {
+        const Lanes g1(&cell.gradient_1[q][k * Lanes::size()], simd::vector_aligned);
+        const Lanes g2(&cell.gradient_2[q][k * Lanes::size()], simd::vector_aligned);
+        m11[k] += w1 * g1;
+        m12[k] += w1 * g2;
+        m22[k] += w2 * g2;
+      }
+    }
+    for (std::size_t k = 0; k < n_packs; ++k) {
+      m11[k].copy_to(&products.m11[a][k * Lanes::size()], simd::vector_aligned);
+      m12[k].copy_to(&products.m12[a][k * Lanes::size()], simd::vector_aligned);
+      m22[k].copy_to(&products.m22[a][k * Lanes::size()], simd::vector_aligned);
+    }
+  }
 }
 
 /// To the columns of the band.
@@ -206,12 +229,14 @@ template <int n_nodes>
 std::size_t assemble(const ReferenceElement &element, const Discretisation &discretisation,
                      std::span<const Material> materials, const NodeBand &band, linear_algebra::BlockMatrix &matrix) {
   const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
+  CellGradients<n_nodes> cell(table.n_points);
   GradientProducts<n_nodes> products;
   for (const std::size_t c : cells_touching(band, discretisation, element.n_vertices())) {
     const auto &material = materials[static_cast<std::size_t>(discretisation.regions[c])];
     const unsigned *nodes = discretisation.nodes_of(c).data();
-    if (!integrate_cell(table, discretisation, nodes, products))
+    if (!map_cell(table, discretisation, nodes, cell))
       return c;
+    multiply_gradients(cell, products);
     add_to_matrix(products, material.lambda(), material.mu(), nodes, band, matrix);
   }
   return discretisation.n_cells;
