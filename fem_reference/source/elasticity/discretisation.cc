@@ -129,7 +129,7 @@ private:
 };
 } // namespace
 
-std::vector<std::size_t> cells_touching(const parallel::NodeBand &band, const Discretisation &discretisation,
+std::vector<std::size_t> cells_touching(const parallel::Band &band, const Discretisation &discretisation,
                                         unsigned n_vertices) {
   std::vector<std::size_t> cells;
   for (std::size_t c = 0; c < discretisation.n_cells; ++c)

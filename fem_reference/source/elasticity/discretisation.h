@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../parallel/node_bands.h"
+#include "../parallel/bands.h"
 #include "fem_reference/mesh/plane_mesh.h"
 #include "reference_element.h"
 
@@ -70,7 +70,7 @@ struct Discretisation {
 };
 
 /// The cells with `n_vertices` vertices that have a node in the band, ascending.
-std::vector<std::size_t> cells_touching(const parallel::NodeBand &band, const Discretisation &discretisation,
+std::vector<std::size_t> cells_touching(const parallel::Band &band, const Discretisation &discretisation,
                                         unsigned n_vertices);
 
 /// Checks a mesh and numbers its nodes, in the order of the cells. The seconds spent on checks and

@@ -64,8 +64,8 @@ std::vector<Vector> point_forces(const VectorField &body_force, const ShapeTable
 /// The body force on the cells of one shape.
 void add_body_force(const VectorField &body_force, const ReferenceElement &element,
                     const Discretisation &discretisation, Loads &loads) {
-  const auto cells =
-      cells_touching(parallel::all_nodes(discretisation.n_nodes()), discretisation, element.n_vertices());
+  const parallel::Band all{0, static_cast<unsigned>(discretisation.n_nodes())};
+  const auto cells = cells_touching(all, discretisation, element.n_vertices());
   const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n_points = static_cast<std::size_t>(table.n_points);
   const auto make = [&](std::size_t begin, std::size_t end) {

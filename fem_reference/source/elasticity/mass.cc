@@ -1,12 +1,12 @@
 #include "mass.h"
 
-#include "../parallel/node_bands.h"
+#include "../parallel/bands.h"
 
 #include <array>
 
 namespace fem_reference::elasticity {
 namespace {
-using parallel::NodeBand;
+using parallel::Band;
 
 /// Determinant of the Jacobian from the slopes of the shape functions at a point.
 double jacobian(const Discretisation &discretisation, std::span<const unsigned> nodes, const double *slope_1,
@@ -25,7 +25,7 @@ double jacobian(const Discretisation &discretisation, std::span<const unsigned> 
 /// Calls function(nodes, m) with the consistent mass m[a * n + b] of every cell of one shape that touches the band.
 template <typename Function>
 void for_each_cell_mass(const ReferenceElement &element, const Discretisation &discretisation,
-                        std::span<const double> densities, const NodeBand &band, const Function &function) {
+                        std::span<const double> densities, const Band &band, const Function &function) {
   // Degree 2 p for the product and up to 2 p more for a curved cell's Jacobian.
   const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n = static_cast<std::size_t>(table.n_nodes);
@@ -45,7 +45,7 @@ void for_each_cell_mass(const ReferenceElement &element, const Discretisation &d
   }
 }
 
-void lump_quadrilaterals(const Discretisation &discretisation, std::span<const double> densities, const NodeBand &band,
+void lump_quadrilaterals(const Discretisation &discretisation, std::span<const double> densities, const Band &band,
                          std::vector<double> &nodal) {
   const ReferenceElement &element = discretisation.elements[1];
   const auto n = static_cast<std::size_t>(element.n_nodes());
@@ -68,7 +68,7 @@ void lump_quadrilaterals(const Discretisation &discretisation, std::span<const d
   }
 }
 
-void lump_triangles(const Discretisation &discretisation, std::span<const double> densities, const NodeBand &band,
+void lump_triangles(const Discretisation &discretisation, std::span<const double> densities, const Band &band,
                     std::vector<double> &nodal) {
   for_each_cell_mass(discretisation.elements[0], discretisation, densities, band,
                      [&](std::span<const unsigned> nodes, const std::vector<double> &mass) {
@@ -86,7 +86,7 @@ void lump_triangles(const Discretisation &discretisation, std::span<const double
 }
 
 /// One cell's mass to the columns of the band.
-void add_to_matrix(std::span<const unsigned> nodes, const std::vector<double> &mass, const NodeBand &band,
+void add_to_matrix(std::span<const unsigned> nodes, const std::vector<double> &mass, const Band &band,
                    linear_algebra::BlockMatrix &matrix) {
   const std::size_t n = nodes.size();
   for (std::size_t b = 0; b < n; ++b) {
@@ -110,7 +110,7 @@ void add_to_matrix(std::span<const unsigned> nodes, const std::vector<double> &m
 
 void assemble_mass(const Discretisation &discretisation, std::span<const double> densities,
                    linear_algebra::BlockMatrix &matrix) {
-  parallel::for_each_node_band(discretisation.n_nodes(), [&](const NodeBand &band, int) {
+  parallel::for_each_band(discretisation.n_nodes(), [&](const Band &band, int) {
     for (const auto &element : discretisation.elements)
       for_each_cell_mass(element, discretisation, densities, band,
                          [&](std::span<const unsigned> nodes, const std::vector<double> &mass) {
@@ -121,7 +121,7 @@ void assemble_mass(const Discretisation &discretisation, std::span<const double>
 
 std::vector<double> lumped_mass(const Discretisation &discretisation, std::span<const double> densities) {
   std::vector<double> nodal(discretisation.n_nodes(), 0);
-  parallel::for_each_node_band(discretisation.n_nodes(), [&](const NodeBand &band, int) {
+  parallel::for_each_band(discretisation.n_nodes(), [&](const Band &band, int) {
     lump_quadrilaterals(discretisation, densities, band, nodal);
     lump_triangles(discretisation, densities, band, nodal);
   });

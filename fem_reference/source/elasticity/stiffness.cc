@@ -1,6 +1,6 @@
 #include "stiffness.h"
 
-#include "../parallel/node_bands.h"
+#include "../parallel/bands.h"
 #include "fem_reference/errors.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace fem_reference::elasticity {
 namespace {
 namespace simd = std::experimental;
-using parallel::NodeBand;
+using parallel::Band;
 using Lanes = simd::native_simd<double>;
 
 /// Rows of n values are padded to whole vectors.
@@ -143,7 +143,7 @@ void multiply_gradients(const CellGradients<n_nodes> &cell, GradientProducts<n_n
 /// To the columns of the band.
 template <int n_nodes>
 void add_to_matrix(const GradientProducts<n_nodes> &products, double lambda, double mu, const unsigned *nodes,
-                   const NodeBand &band, linear_algebra::BlockMatrix &matrix) {
+                   const Band &band, linear_algebra::BlockMatrix &matrix) {
   for (int b = 0; b < n_nodes; ++b) {
     const unsigned column = nodes[b];
     if (!band.holds(column))
@@ -227,7 +227,7 @@ void add_internal_forces(const ReferenceElement &element, const Discretisation &
 /// The columns of one band. Returns the first cell whose Jacobian is not positive, at which it ends, or n_cells.
 template <int n_nodes>
 std::size_t assemble(const ReferenceElement &element, const Discretisation &discretisation,
-                     std::span<const Material> materials, const NodeBand &band, linear_algebra::BlockMatrix &matrix) {
+                     std::span<const Material> materials, const Band &band, linear_algebra::BlockMatrix &matrix) {
   const PaddedTable<n_nodes> table(ShapeTable(element, cell_quadrature(element.n_vertices(), element.degree() + 1)));
   CellGradients<n_nodes> cell(table.n_points);
   GradientProducts<n_nodes> products;
@@ -293,7 +293,7 @@ void assemble_stiffness(const Discretisation &discretisation, std::span<const Ma
                         linear_algebra::BlockMatrix &matrix) {
   for_each_element(discretisation, [&](auto n_nodes, const ReferenceElement &element) {
     std::vector<std::size_t> faulty(static_cast<std::size_t>(threads()));
-    parallel::for_each_node_band(discretisation.n_nodes(), [&](const NodeBand &band, int k) {
+    parallel::for_each_band(discretisation.n_nodes(), [&](const Band &band, int k) {
       faulty[static_cast<std::size_t>(k)] = assemble<n_nodes()>(element, discretisation, materials, band, matrix);
     });
     if (const auto first = *std::min_element(faulty.begin(), faulty.end()); first < discretisation.n_cells)
