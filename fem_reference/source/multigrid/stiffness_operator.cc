@@ -1,7 +1,7 @@
 #include "stiffness_operator.h"
 
 #include "../elasticity/stiffness.h"
-#include "../parallel/bands.h"
+#include "batch_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -57,29 +57,18 @@ private:
   static constexpr int n_nodes = n * n;
   using Table = std::array<Lanes, n_nodes>;
 
-  /// What one thread computes: the nodes of a band from the batches that touch it, ascending.
-  struct Part {
-    struct Batch {
-      unsigned number;
-      bool inside; ///< has no nodes but those of the band
-    };
-    Band band;
-    std::vector<Batch> batches;
-  };
-
   void set_geometry(const Discretisation &space);
   /// Returns false if the Jacobian is not positive at some point.
   bool set_geometry_of(std::size_t cell, const Discretisation &space);
-  void set_parts();
   /// Calls function(part) for every part, several at once.
   template <typename Function>
   void for_each_part(const Function &function) const {
     parallel::for_each_band(parts_.size(), static_cast<int>(parts_.size()),
                             [&](const Band &, int k) { function(parts_[static_cast<std::size_t>(k)]); });
   }
-  void add_batch(const Part &part, const typename Part::Batch &batch, const Number *x, Number *y) const;
-  void add_diagonal(const Part &part, const typename Part::Batch &batch, Number *y) const;
-  void add_to_node(const Part &part, const typename Part::Batch &batch, int a, const Lanes &v1, const Lanes &v2,
+  void add_batch(const BatchPart &part, const BatchPart::Batch &batch, const Number *x, Number *y) const;
+  void add_diagonal(const BatchPart &part, const BatchPart::Batch &batch, Number *y) const;
+  void add_to_node(const BatchPart &part, const BatchPart::Batch &batch, int a, const Lanes &v1, const Lanes &v2,
                    Number *y) const;
   /// Derivatives along both axes of the reference cell at the Gauss points.
   void differentiate(const Table &values, Table &along_1, Table &along_2) const;
@@ -92,7 +81,7 @@ private:
   std::vector<unsigned> nodes_;      ///< [batch][node][lane]; what is left of the last batch repeats cell 0
   std::vector<Number> moduli_;       ///< [batch][lambda, mu][lane]
   std::vector<Number> geometry_;     ///< [batch][point][S11, S12, S21, S22][lane], see set_geometry
-  std::vector<Part> parts_;          ///< as many as there were threads
+  std::vector<BatchPart> parts_;     ///< as many as there were threads
   std::vector<unsigned> prescribed_; ///< unknowns
   std::size_t n_unknowns_;
 };
@@ -113,7 +102,7 @@ CellwiseStiffness<Number, n>::CellwiseStiffness(const Discretisation &space, std
     moduli_[(c / lanes * 2 + 1) * lanes + c % lanes] = static_cast<Number>(material.mu() / scale);
   }
   set_geometry(space);
-  set_parts();
+  parts_ = share_out(nodes_, n_nodes * lanes, space.n_nodes());
   for (std::size_t i = 0; i < prescribed.size(); ++i)
     if (prescribed[i] != 0)
       prescribed_.push_back(static_cast<unsigned>(i));
@@ -162,23 +151,6 @@ void CellwiseStiffness<Number, n>::set_geometry(const Discretisation &space) {
   });
   if (const auto first = *std::min_element(faulty.begin(), faulty.end()); first < space.n_cells)
     elasticity::refuse_jacobian(space, first);
-}
-
-template <typename Number, int n>
-void CellwiseStiffness<Number, n>::set_parts() {
-  const std::size_t n_space_nodes = n_unknowns_ / 2;
-  parts_.resize(static_cast<std::size_t>(parallel::n_short_bands(n_space_nodes)));
-  parallel::for_each_band(n_space_nodes, static_cast<int>(parts_.size()), [&](const Band &band, int k) {
-    auto &part = parts_[static_cast<std::size_t>(k)];
-    part.band = band;
-    for (std::size_t b = 0; b < n_batches_; ++b) {
-      const std::span nodes(nodes_.data() + b * n_nodes * lanes, n_nodes * lanes);
-      if (band.touches(nodes))
-        part.batches.push_back({static_cast<unsigned>(b), std::all_of(nodes.begin(), nodes.end(), [&](unsigned node) {
-                                  return band.holds(node);
-                                })});
-    }
-  });
 }
 
 template <typename Number, int n>
@@ -234,7 +206,7 @@ void CellwiseStiffness<Number, n>::integrate(const Table &along_1, const Table &
 }
 
 template <typename Number, int n>
-void CellwiseStiffness<Number, n>::add_to_node(const Part &part, const typename Part::Batch &batch, int a,
+void CellwiseStiffness<Number, n>::add_to_node(const BatchPart &part, const BatchPart::Batch &batch, int a,
                                                const Lanes &v1, const Lanes &v2, Number *y) const {
   const unsigned *node = nodes_.data() + (std::size_t{batch.number} * n_nodes + a) * lanes;
   for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -245,7 +217,7 @@ void CellwiseStiffness<Number, n>::add_to_node(const Part &part, const typename 
 }
 
 template <typename Number, int n>
-void CellwiseStiffness<Number, n>::add_batch(const Part &part, const typename Part::Batch &batch, const Number *x,
+void CellwiseStiffness<Number, n>::add_batch(const BatchPart &part, const BatchPart::Batch &batch, const Number *x,
                                              Number *y) const {
   const std::size_t b = batch.number;
   const unsigned *nodes = nodes_.data() + b * n_nodes * lanes;
@@ -293,7 +265,7 @@ void CellwiseStiffness<Number, n>::add_batch(const Part &part, const typename Pa
 
 template <typename Number, int n>
 void CellwiseStiffness<Number, n>::apply(std::span<const Number> x, std::span<Number> y) const {
-  for_each_part([&](const Part &part) {
+  for_each_part([&](const BatchPart &part) {
     std::fill(y.begin() + 2 * std::ptrdiff_t{part.band.begin}, y.begin() + 2 * std::ptrdiff_t{part.band.end},
               Number{0});
     for (const auto &batch : part.batches)
@@ -304,7 +276,7 @@ void CellwiseStiffness<Number, n>::apply(std::span<const Number> x, std::span<Nu
 }
 
 template <typename Number, int n>
-void CellwiseStiffness<Number, n>::add_diagonal(const Part &part, const typename Part::Batch &batch, Number *y) const {
+void CellwiseStiffness<Number, n>::add_diagonal(const BatchPart &part, const BatchPart::Batch &batch, Number *y) const {
   const std::size_t b = batch.number;
   const Number *moduli = moduli_.data() + b * 2 * lanes;
   const Lanes lambda(moduli, simd::element_aligned);
@@ -330,7 +302,7 @@ void CellwiseStiffness<Number, n>::add_diagonal(const Part &part, const typename
 template <typename Number, int n>
 std::vector<Number> CellwiseStiffness<Number, n>::diagonal() const {
   std::vector<Number> result(n_unknowns_);
-  for_each_part([&](const Part &part) {
+  for_each_part([&](const BatchPart &part) {
     for (const auto &batch : part.batches)
       add_diagonal(part, batch, result.data());
   });
