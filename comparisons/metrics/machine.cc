@@ -1,5 +1,6 @@
 #include "comparisons/metrics/machine.h"
 
+#include "fem_reference/threads.h"
 #include "meshless/linear_algebra/pack.h"
 #include "meshless/parallel/threads.h"
 #include "petrov_commit.h"
@@ -124,6 +125,7 @@ void use_threads(int threads) {
   setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
   openblas_set_num_threads(threads);
   meshless::parallel::set_threads(threads);
+  fem_reference::set_threads(threads);
 }
 
 std::vector<std::string> reasons_not_comparable(const reports::Program &program, const reports::Machine &machine,

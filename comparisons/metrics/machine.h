@@ -15,7 +15,7 @@ reports::Machine describe_machine(int threads);
 /// Name, version, commit and flags of this program.
 reports::Program describe_program();
 
-/// Sets the number of threads of BLAS (and of what else has its own).
+/// Sets the number of threads of BLAS, of meshless and of fem_reference, and with it that of TBB in the process.
 void use_threads(int threads);
 
 /// One-minute load average of the machine, if the system tells.

@@ -105,7 +105,9 @@ std::vector<Declaration> study_declarations() {
        .type = Type::integer,
        .range = {.lower = 1, .upper = 1024},
        .default_value = std::int64_t{1},
-       .meaning = "threads of every method: BLAS, and the assembly of particle methods in weak form"},
+       .meaning =
+           "threads of every method: BLAS, the assembly of particle methods in weak form and of finite elements, "
+           "multigrid"},
       {.name = "facts",
        .type = Type::boolean,
        .default_value = false,

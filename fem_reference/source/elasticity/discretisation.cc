@@ -129,6 +129,15 @@ private:
 };
 } // namespace
 
+std::vector<std::size_t> cells_touching(const parallel::Band &band, const Discretisation &discretisation,
+                                        unsigned n_vertices) {
+  std::vector<std::size_t> cells;
+  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
+    if (discretisation.n_vertices[c] == n_vertices && band.touches(discretisation.nodes_of(c)))
+      cells.push_back(c);
+  return cells;
+}
+
 Discretisation discretise(const mesh::PlaneMesh &mesh, int degree, double &seconds_mesh, double &seconds_numbering) {
   Stopwatch stopwatch;
   const auto topology = mesh::checked_topology(mesh);

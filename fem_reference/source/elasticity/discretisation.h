@@ -1,5 +1,6 @@
 #pragma once
 
+#include "../parallel/bands.h"
 #include "fem_reference/mesh/plane_mesh.h"
 #include "reference_element.h"
 
@@ -67,6 +68,10 @@ struct Discretisation {
     return {origin[0] + positions[node][0], origin[1] + positions[node][1]};
   }
 };
+
+/// The cells with `n_vertices` vertices that have a node in the band, ascending.
+std::vector<std::size_t> cells_touching(const parallel::Band &band, const Discretisation &discretisation,
+                                        unsigned n_vertices);
 
 /// Checks a mesh and numbers its nodes, in the order of the cells. The seconds spent on checks and
 /// numbering are written to the two last arguments.

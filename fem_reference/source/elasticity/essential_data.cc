@@ -186,8 +186,18 @@ EssentialData essential_data(const PlaneProblem &problem, const Discretisation &
 void eliminate(const EssentialData &essential, linear_algebra::BlockMatrix &matrix,
                std::vector<double> &right_hand_side) {
   const auto &prescribed = essential.prescribed;
+  std::vector<char> held(prescribed.size() / 2); // nodes
+  for (std::size_t j = 0; j < held.size(); ++j)
+    held[j] = prescribed[2 * j] | prescribed[2 * j + 1];
+  const auto is_held = [&](int j) { return held[static_cast<std::size_t>(j)] != 0; };
   std::size_t entry = 0;
-  for (int j = 0; j < matrix.n_nodes(); ++j)
+  for (int j = 0; j < matrix.n_nodes(); ++j) {
+    const std::span rows(matrix.block_rows.begin() + matrix.block_start[j],
+                         matrix.block_rows.begin() + matrix.block_start[j + 1]); // j first
+    if (std::none_of(rows.begin(), rows.end(), is_held)) {
+      entry += 4 * rows.size() - 1;
+      continue;
+    }
     for (int s = 0; s < 2; ++s) {
       const std::size_t column = 2 * static_cast<std::size_t>(j) + s;
       for (int k = matrix.block_start[j]; k < matrix.block_start[j + 1]; ++k)
@@ -202,6 +212,7 @@ void eliminate(const EssentialData &essential, linear_algebra::BlockMatrix &matr
           matrix.values[entry] = 0;
         }
     }
+  }
   // The kept diagonal scales the equation u = value as its neighbours.
   for (int j = 0; j < matrix.n_nodes(); ++j) {
     const std::size_t first = matrix.first_entry(static_cast<unsigned>(j));

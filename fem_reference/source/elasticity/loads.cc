@@ -1,5 +1,7 @@
 #include "boundary_conditions.h"
 
+#include "../parallel/ordered_batches.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -38,44 +40,50 @@ MappedPoint map_point(const ShapeTable &table, int q, std::span<const unsigned> 
   return {x, table.weights[q] * (d1[0] * d2[1] - d1[1] * d2[0])};
 }
 
+/// Forces of the body force at the quadrature points of some cells, one cell after the other.
+std::vector<Vector> point_forces(const VectorField &body_force, const ShapeTable &table,
+                                 const Discretisation &discretisation, std::span<const std::size_t> cells) {
+  std::vector<Point> points;
+  std::vector<double> jxw;
+  for (const std::size_t c : cells)
+    for (int q = 0; q < table.n_points; ++q) {
+      const auto mapped = map_point(table, q, discretisation.nodes_of(c), discretisation.positions);
+      points.push_back({discretisation.origin[0] + mapped.position[0], discretisation.origin[1] + mapped.position[1]});
+      jxw.push_back(mapped.jxw);
+    }
+  std::vector<Vector> forces(points.size(), Vector{});
+  body_force(points, forces);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    check_finite(forces[k], points[k], "the body force");
+    for (double &force : forces[k])
+      force *= jxw[k];
+  }
+  return forces;
+}
+
 /// The body force on the cells of one shape.
 void add_body_force(const VectorField &body_force, const ReferenceElement &element,
                     const Discretisation &discretisation, Loads &loads) {
-  std::vector<std::size_t> cells;
-  for (std::size_t c = 0; c < discretisation.n_cells; ++c)
-    if (discretisation.n_vertices[c] == element.n_vertices())
-      cells.push_back(c);
+  const parallel::Band all{0, static_cast<unsigned>(discretisation.n_nodes())};
+  const auto cells = cells_touching(all, discretisation, element.n_vertices());
   const ShapeTable table(element, cell_quadrature(element.n_vertices(), element.degree() + 2));
   const auto n_points = static_cast<std::size_t>(table.n_points);
-  std::vector<Point> points;
-  std::vector<double> jxw;
-  std::vector<Vector> values;
-  for (std::size_t first = 0; first < cells.size(); first += cells_per_batch) {
-    const std::size_t last = std::min(first + cells_per_batch, cells.size());
-    points.clear();
-    jxw.clear();
-    for (std::size_t c = first; c < last; ++c)
-      for (int q = 0; q < table.n_points; ++q) {
-        const auto mapped = map_point(table, q, discretisation.nodes_of(cells[c]), discretisation.positions);
-        points.push_back(
-            {discretisation.origin[0] + mapped.position[0], discretisation.origin[1] + mapped.position[1]});
-        jxw.push_back(mapped.jxw);
-      }
-    values.assign(points.size(), Vector{});
-    body_force(points, values);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      check_finite(values[k], points[k], "the body force");
-      const auto nodes = discretisation.nodes_of(cells[first + k / n_points]);
+  const auto make = [&](std::size_t begin, std::size_t end) {
+    return point_forces(body_force, table, discretisation, std::span(cells).subspan(begin, end - begin));
+  };
+  const auto take = [&](std::size_t begin, const std::vector<Vector> &forces) {
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const auto nodes = discretisation.nodes_of(cells[begin + k / n_points]);
       const double *shape = table.values.data() + (k % n_points) * nodes.size();
       for (std::size_t d = 0; d < 2; ++d) {
-        const double force = jxw[k] * values[k][d];
-        loads.body_force[d] += force;
-        loads.magnitude += std::abs(force);
+        loads.body_force[d] += forces[k][d];
+        loads.magnitude += std::abs(forces[k][d]);
         for (std::size_t a = 0; a < nodes.size(); ++a)
-          loads.nodal[2 * std::size_t{nodes[a]} + d] += shape[a] * force;
+          loads.nodal[2 * std::size_t{nodes[a]} + d] += shape[a] * forces[k][d];
       }
     }
-  }
+  };
+  parallel::in_ordered_batches<std::vector<Vector>>(cells.size(), cells_per_batch, make, take);
 }
 
 /// Integrals of the slopes of shape functions with the thermal stress, on the cells of one shape.

@@ -3,6 +3,7 @@
 #include "../elasticity/boundary_conditions.h"
 #include "../elasticity/stiffness.h"
 #include "../linear_algebra/direct_solvers.h"
+#include "../parallel/bands.h"
 #include "fem_reference/errors.h"
 #include "quadrilateral_coarsening.h"
 #include "stiffness_operator.h"
@@ -37,6 +38,15 @@ double dot(std::span<const Number> a, std::span<const Number> b) {
   return sums[0] + sums[1] + (sums[2] + sums[3]);
 }
 
+/// Calls function(i) for the unknowns i = 0 ... n - 1, several at once if they are many.
+template <typename Function>
+void for_each_unknown(std::size_t n, const Function &function) {
+  parallel::for_each_band(n, parallel::n_short_bands(n / 2), [&](const parallel::Band &band, int) {
+    for (std::size_t i = band.begin; i < band.end; ++i)
+      function(i);
+  });
+}
+
 /// One level above the coarsest.
 class Level {
 public:
@@ -61,8 +71,7 @@ public:
   /// residual -= K correction
   void subtract_image(std::span<const float> correction, std::span<float> residual) {
     stiffness_->apply(correction, image_);
-    for (std::size_t i = 0; i < residual.size(); ++i)
-      residual[i] -= image_[i];
+    for_each_unknown(residual.size(), [&](std::size_t i) { residual[i] -= image_[i]; });
   }
 
 private:
@@ -86,10 +95,10 @@ void Level::smooth(std::span<float> x, std::span<float> residual, bool residual_
     const auto added = static_cast<float>((8. * k - 4) / (2. * k + 1)) / largest_eigenvalue_;
     if (k == 1)
       std::fill(step_.begin(), step_.end(), 0.F);
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_unknown(n, [&](std::size_t i) {
       step_[i] = kept * step_[i] + added * inverse_diagonal_[i] * residual[i];
       x[i] += step_[i];
-    }
+    });
     if (k < smoothing_degree || residual_wanted)
       subtract_image(step_, residual);
   }
@@ -264,8 +273,7 @@ void Multigrid::Implementation::cycle(std::size_t level, std::span<float> x, std
   auto &correction = corrections_[level];
   std::fill(correction.begin(), correction.end(), 0.F);
   transfer.prolongate(coarse_x, correction);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] += correction[i];
+  for_each_unknown(x.size(), [&](std::size_t i) { x[i] += correction[i]; });
   smoother.subtract_image(correction, residual);
   smoother.smooth_last(x, residual);
 }
@@ -281,11 +289,11 @@ void Multigrid::Implementation::precondition(std::span<const double> residual, s
   }
   auto &single_residual = residuals_[0];
   auto &single_result = solutions_[0];
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    single_residual[i] = static_cast<float>(residual[i] / largest);
+  for_each_unknown(residual.size(),
+                   [&](std::size_t i) { single_residual[i] = static_cast<float>(residual[i] / largest); });
   cycle(0, single_result, single_residual);
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    result[i] = static_cast<double>(single_result[i]) * largest;
+  for_each_unknown(residual.size(),
+                   [&](std::size_t i) { result[i] = static_cast<double>(single_result[i]) * largest; });
 }
 
 Multigrid::Result Multigrid::Implementation::solve(std::span<const double> right_hand_side, double tolerance,
@@ -308,8 +316,7 @@ Multigrid::Result Multigrid::Implementation::solve(std::span<const double> right
     const double next_product = dot<double>(residual, preconditioned);
     const double kept = product == 0 ? 0. : next_product / product;
     product = next_product;
-    for (std::size_t i = 0; i < n; ++i)
-      direction[i] = preconditioned[i] + kept * direction[i];
+    for_each_unknown(n, [&](std::size_t i) { direction[i] = preconditioned[i] + kept * direction[i]; });
     stiffness_->apply(direction, image);
     const double curvature = dot<double>(direction, image);
     if (!(curvature > 0) || !(product > 0))
@@ -317,10 +324,10 @@ Multigrid::Result Multigrid::Implementation::solve(std::span<const double> right
                                      "iteration {}; look for nu too close to 1/2, or use cholesky",
                                      n, result.iterations + 1));
     const double length = product / curvature;
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_unknown(n, [&](std::size_t i) {
       x[i] += length * direction[i];
       residual[i] -= length * image[i];
-    }
+    });
     ++result.iterations;
     result.relative_residual = std::sqrt(dot<double>(residual, residual)) / first;
     if (result.relative_residual <= tolerance)

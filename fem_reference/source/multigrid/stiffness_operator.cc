@@ -1,6 +1,7 @@
 #include "stiffness_operator.h"
 
 #include "../elasticity/stiffness.h"
+#include "batch_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@ namespace simd = std::experimental;
 using elasticity::Discretisation;
 using elasticity::LagrangeBasis;
 using elasticity::Material;
+using parallel::Band;
 
 /// Values and derivatives of the one-dimensional shape functions at the Gauss points: value[q][a].
 template <typename Number, int n>
@@ -56,7 +58,18 @@ private:
   using Table = std::array<Lanes, n_nodes>;
 
   void set_geometry(const Discretisation &space);
-  void add_batch(std::size_t batch, const Number *x, Number *y) const;
+  /// Returns false if the Jacobian is not positive at some point.
+  bool set_geometry_of(std::size_t cell, const Discretisation &space);
+  /// Calls function(part) for every part, several at once.
+  template <typename Function>
+  void for_each_part(const Function &function) const {
+    parallel::for_each_band(parts_.size(), static_cast<int>(parts_.size()),
+                            [&](const Band &, int k) { function(parts_[static_cast<std::size_t>(k)]); });
+  }
+  void add_batch(const BatchPart &part, const BatchPart::Batch &batch, const Number *x, Number *y) const;
+  void add_diagonal(const BatchPart &part, const BatchPart::Batch &batch, Number *y) const;
+  void add_to_node(const BatchPart &part, const BatchPart::Batch &batch, int a, const Lanes &v1, const Lanes &v2,
+                   Number *y) const;
   /// Derivatives along both axes of the reference cell at the Gauss points.
   void differentiate(const Table &values, Table &along_1, Table &along_2) const;
   /// The transpose: values = sum of the shape functions' derivatives times the given.
@@ -68,6 +81,7 @@ private:
   std::vector<unsigned> nodes_;      ///< [batch][node][lane]; what is left of the last batch repeats cell 0
   std::vector<Number> moduli_;       ///< [batch][lambda, mu][lane]
   std::vector<Number> geometry_;     ///< [batch][point][S11, S12, S21, S22][lane], see set_geometry
+  std::vector<BatchPart> parts_;     ///< as many as there were threads
   std::vector<unsigned> prescribed_; ///< unknowns
   std::size_t n_unknowns_;
 };
@@ -88,6 +102,7 @@ CellwiseStiffness<Number, n>::CellwiseStiffness(const Discretisation &space, std
     moduli_[(c / lanes * 2 + 1) * lanes + c % lanes] = static_cast<Number>(material.mu() / scale);
   }
   set_geometry(space);
+  parts_ = share_out(nodes_, n_nodes * lanes, space.n_nodes());
   for (std::size_t i = 0; i < prescribed.size(); ++i)
     if (prescribed[i] != 0)
       prescribed_.push_back(static_cast<unsigned>(i));
@@ -96,32 +111,46 @@ CellwiseStiffness<Number, n>::CellwiseStiffness(const Discretisation &space, std
 /// S_ki = sqrt(w det J) d xi_k / d x_i: with it grad u = sum_k S_ki du / d xi_k has the weight of the quadrature in
 /// itself, once in the strain and once in the test function. In the plane S does not depend on the cell's size.
 template <typename Number, int n>
-void CellwiseStiffness<Number, n>::set_geometry(const Discretisation &space) {
+bool CellwiseStiffness<Number, n>::set_geometry_of(std::size_t c, const Discretisation &space) {
   const auto &t = exact_line_;
-  for (std::size_t c = 0; c < space.n_cells; ++c) {
-    const auto nodes = space.nodes_of(c);
-    for (int q2 = 0; q2 < n; ++q2)
-      for (int q1 = 0; q1 < n; ++q1) {
-        double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
-        for (int a2 = 0; a2 < n; ++a2)
-          for (int a1 = 0; a1 < n; ++a1) {
-            const auto &x = space.positions[nodes[a2 * n + a1]];
-            const double along_1 = t.slope[q1][a1] * t.value[q2][a2];
-            const double along_2 = t.value[q1][a1] * t.slope[q2][a2];
-            j11 += x[0] * along_1;
-            j12 += x[0] * along_2;
-            j21 += x[1] * along_1;
-            j22 += x[1] * along_2;
-          }
-        const double determinant = j11 * j22 - j12 * j21;
-        if (!(determinant > 0))
-          elasticity::refuse_jacobian(space, c);
-        const double factor = std::sqrt(t.weight[q1] * t.weight[q2] / determinant);
-        const std::array<double, 4> s{j22 * factor, -j12 * factor, -j21 * factor, j11 * factor};
-        for (std::size_t k = 0; k < 4; ++k)
-          geometry_[((c / lanes * n_nodes + q2 * n + q1) * 4 + k) * lanes + c % lanes] = static_cast<Number>(s[k]);
+  const auto nodes = space.nodes_of(c);
+  for (int q2 = 0; q2 < n; ++q2)
+    for (int q1 = 0; q1 < n; ++q1) {
+      double j11 = 0, j12 = 0, j21 = 0, j22 = 0; // j_ik = d x_i / d xi_k
+      for (int a2 = 0; a2 < n; ++a2)
+        for (int a1 = 0; a1 < n; ++a1) {
+          const auto &x = space.positions[nodes[a2 * n + a1]];
+          const double along_1 = t.slope[q1][a1] * t.value[q2][a2];
+          const double along_2 = t.value[q1][a1] * t.slope[q2][a2];
+          j11 += x[0] * along_1;
+          j12 += x[0] * along_2;
+          j21 += x[1] * along_1;
+          j22 += x[1] * along_2;
+        }
+      const double determinant = j11 * j22 - j12 * j21;
+      if (!(determinant > 0))
+        return false;
+      const double factor = std::sqrt(t.weight[q1] * t.weight[q2] / determinant);
+      const std::array<double, 4> s{j22 * factor, -j12 * factor, -j21 * factor, j11 * factor};
+      for (std::size_t k = 0; k < 4; ++k)
+        geometry_[((c / lanes * n_nodes + q2 * n + q1) * 4 + k) * lanes + c % lanes] = static_cast<Number>(s[k]);
+    }
+  return true;
+}
+
+template <typename Number, int n>
+void CellwiseStiffness<Number, n>::set_geometry(const Discretisation &space) {
+  const int n_bands = parallel::n_short_bands(space.n_nodes());
+  std::vector<std::size_t> faulty(static_cast<std::size_t>(n_bands), space.n_cells);
+  parallel::for_each_band(space.n_cells, n_bands, [&](const Band &cells, int k) {
+    for (std::size_t c = cells.begin; c < cells.end; ++c)
+      if (!set_geometry_of(c, space)) {
+        faulty[static_cast<std::size_t>(k)] = c;
+        return;
       }
-  }
+  });
+  if (const auto first = *std::min_element(faulty.begin(), faulty.end()); first < space.n_cells)
+    elasticity::refuse_jacobian(space, first);
 }
 
 template <typename Number, int n>
@@ -177,8 +206,21 @@ void CellwiseStiffness<Number, n>::integrate(const Table &along_1, const Table &
 }
 
 template <typename Number, int n>
-void CellwiseStiffness<Number, n>::add_batch(std::size_t batch, const Number *x, Number *y) const {
-  const unsigned *nodes = nodes_.data() + batch * n_nodes * lanes;
+void CellwiseStiffness<Number, n>::add_to_node(const BatchPart &part, const BatchPart::Batch &batch, int a,
+                                               const Lanes &v1, const Lanes &v2, Number *y) const {
+  const unsigned *node = nodes_.data() + (std::size_t{batch.number} * n_nodes + a) * lanes;
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    if (batch.inside || part.band.holds(node[lane])) {
+      y[2 * std::size_t{node[lane]}] += v1[lane];
+      y[2 * std::size_t{node[lane]} + 1] += v2[lane];
+    }
+}
+
+template <typename Number, int n>
+void CellwiseStiffness<Number, n>::add_batch(const BatchPart &part, const BatchPart::Batch &batch, const Number *x,
+                                             Number *y) const {
+  const std::size_t b = batch.number;
+  const unsigned *nodes = nodes_.data() + b * n_nodes * lanes;
   Table u1;
   Table u2;
   for (int a = 0; a < n_nodes; ++a) {
@@ -193,10 +235,10 @@ void CellwiseStiffness<Number, n>::add_batch(std::size_t batch, const Number *x,
   differentiate(u1, d11, d12);
   differentiate(u2, d21, d22);
 
-  const Number *moduli = moduli_.data() + batch * 2 * lanes;
+  const Number *moduli = moduli_.data() + b * 2 * lanes;
   const Lanes lambda(moduli, simd::element_aligned);
   const Lanes mu(moduli + lanes, simd::element_aligned);
-  const Number *geometry = geometry_.data() + batch * n_nodes * 4 * lanes;
+  const Number *geometry = geometry_.data() + b * n_nodes * 4 * lanes;
   for (int q = 0; q < n_nodes; ++q, geometry += 4 * lanes) {
     const Lanes s11(geometry, simd::element_aligned);
     const Lanes s12(geometry + lanes, simd::element_aligned);
@@ -217,52 +259,53 @@ void CellwiseStiffness<Number, n>::add_batch(std::size_t batch, const Number *x,
 
   integrate(d11, d12, u1);
   integrate(d21, d22, u2);
-  for (int a = 0; a < n_nodes; ++a) {
-    const unsigned *node = nodes + a * lanes;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      y[2 * std::size_t{node[lane]}] += u1[a][lane];
-      y[2 * std::size_t{node[lane]} + 1] += u2[a][lane];
-    }
-  }
+  for (int a = 0; a < n_nodes; ++a)
+    add_to_node(part, batch, a, u1[a], u2[a], y);
 }
 
 template <typename Number, int n>
 void CellwiseStiffness<Number, n>::apply(std::span<const Number> x, std::span<Number> y) const {
-  std::fill(y.begin(), y.end(), Number{0});
-  for (std::size_t batch = 0; batch < n_batches_; ++batch)
-    add_batch(batch, x.data(), y.data());
+  for_each_part([&](const BatchPart &part) {
+    std::fill(y.begin() + 2 * std::ptrdiff_t{part.band.begin}, y.begin() + 2 * std::ptrdiff_t{part.band.end},
+              Number{0});
+    for (const auto &batch : part.batches)
+      add_batch(part, batch, x.data(), y.data());
+  });
   for (const unsigned i : prescribed_)
     y[i] = 0;
 }
 
 template <typename Number, int n>
+void CellwiseStiffness<Number, n>::add_diagonal(const BatchPart &part, const BatchPart::Batch &batch, Number *y) const {
+  const std::size_t b = batch.number;
+  const Number *moduli = moduli_.data() + b * 2 * lanes;
+  const Lanes lambda(moduli, simd::element_aligned);
+  const Lanes mu(moduli + lanes, simd::element_aligned);
+  for (int a = 0; a < n_nodes; ++a) {
+    Lanes sum_1 = 0;
+    Lanes sum_2 = 0;
+    for (int q = 0; q < n_nodes; ++q) {
+      const Number *s = geometry_.data() + (b * n_nodes + q) * 4 * lanes;
+      const Number along_1 = line_.slope[q % n][a % n] * line_.value[q / n][a / n];
+      const Number along_2 = line_.value[q % n][a % n] * line_.slope[q / n][a / n];
+      const Lanes g1 =
+          along_1 * Lanes(s, simd::element_aligned) + along_2 * Lanes(s + 2 * lanes, simd::element_aligned);
+      const Lanes g2 =
+          along_1 * Lanes(s + lanes, simd::element_aligned) + along_2 * Lanes(s + 3 * lanes, simd::element_aligned);
+      sum_1 += (lambda + 2 * mu) * g1 * g1 + mu * g2 * g2;
+      sum_2 += (lambda + 2 * mu) * g2 * g2 + mu * g1 * g1;
+    }
+    add_to_node(part, batch, a, sum_1, sum_2, y);
+  }
+}
+
+template <typename Number, int n>
 std::vector<Number> CellwiseStiffness<Number, n>::diagonal() const {
   std::vector<Number> result(n_unknowns_);
-  for (std::size_t batch = 0; batch < n_batches_; ++batch) {
-    const Number *moduli = moduli_.data() + batch * 2 * lanes;
-    const Lanes lambda(moduli, simd::element_aligned);
-    const Lanes mu(moduli + lanes, simd::element_aligned);
-    for (int a = 0; a < n_nodes; ++a) {
-      Lanes sum_1 = 0;
-      Lanes sum_2 = 0;
-      for (int q = 0; q < n_nodes; ++q) {
-        const Number *s = geometry_.data() + (batch * n_nodes + q) * 4 * lanes;
-        const Number along_1 = line_.slope[q % n][a % n] * line_.value[q / n][a / n];
-        const Number along_2 = line_.value[q % n][a % n] * line_.slope[q / n][a / n];
-        const Lanes g1 =
-            along_1 * Lanes(s, simd::element_aligned) + along_2 * Lanes(s + 2 * lanes, simd::element_aligned);
-        const Lanes g2 =
-            along_1 * Lanes(s + lanes, simd::element_aligned) + along_2 * Lanes(s + 3 * lanes, simd::element_aligned);
-        sum_1 += (lambda + 2 * mu) * g1 * g1 + mu * g2 * g2;
-        sum_2 += (lambda + 2 * mu) * g2 * g2 + mu * g1 * g1;
-      }
-      const unsigned *node = nodes_.data() + (batch * n_nodes + a) * lanes;
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        result[2 * std::size_t{node[lane]}] += sum_1[lane];
-        result[2 * std::size_t{node[lane]} + 1] += sum_2[lane];
-      }
-    }
-  }
+  for_each_part([&](const BatchPart &part) {
+    for (const auto &batch : part.batches)
+      add_diagonal(part, batch, result.data());
+  });
   for (const unsigned i : prescribed_)
     result[i] = 1;
   return result;

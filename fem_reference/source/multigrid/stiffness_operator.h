@@ -12,6 +12,8 @@ namespace fem_reference::multigrid {
 ///
 /// Unknown = 2 node + component. The moduli are divided by `scale`, to stay within the range of single precision. Of
 /// prescribed unknowns x is taken as given (zero, in a correction), and y comes out as zero.
+///
+/// As many threads as were set when it was made, fewer for small spaces; the results do not depend on them.
 template <typename Number>
 class StiffnessOperator {
 public:

@@ -1,5 +1,7 @@
 #include "transfer.h"
 
+#include "../parallel/bands.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,16 +30,18 @@ std::span<const float> Transfer::weights_of(std::size_t fine) const {
 }
 
 void Transfer::prolongate(std::span<const float> coarse, std::span<float> fine) const {
-  for (std::size_t i = 0; i < n_fine(); ++i) {
-    float sum_1 = 0;
-    float sum_2 = 0;
-    for (unsigned k = start_[i]; k < start_[i + 1]; ++k) {
-      sum_1 += weights_[k] * coarse[2 * std::size_t{nodes_[k]}];
-      sum_2 += weights_[k] * coarse[2 * std::size_t{nodes_[k]} + 1];
+  parallel::for_each_band(n_fine(), parallel::n_short_bands(n_fine()), [&](const parallel::Band &band, int) {
+    for (std::size_t i = band.begin; i < band.end; ++i) {
+      float sum_1 = 0;
+      float sum_2 = 0;
+      for (unsigned k = start_[i]; k < start_[i + 1]; ++k) {
+        sum_1 += weights_[k] * coarse[2 * std::size_t{nodes_[k]}];
+        sum_2 += weights_[k] * coarse[2 * std::size_t{nodes_[k]} + 1];
+      }
+      fine[2 * i] += sum_1;
+      fine[2 * i + 1] += sum_2;
     }
-    fine[2 * i] += sum_1;
-    fine[2 * i + 1] += sum_2;
-  }
+  });
 }
 
 void Transfer::restrict_to(std::span<const float> fine, std::span<float> coarse) const {

@@ -53,7 +53,7 @@ struct PlaneProblem {
   std::vector<Material> materials;
   /// One condition for each boundary id of the mesh.
   std::map<int, BoundaryCondition> boundary;
-  /// N/m^3; may be empty: then nothing is computed for it.
+  /// N/m^3; may be empty: then nothing is computed for it. Called by several threads at once if set_threads allows.
   VectorField body_force = {};
   /// Free strain by temperature, the same in all directions; may be empty. The stress is then the elastic one less
   /// E / (1 - nu) times it in plane stress, E / (1 - 2 nu) in plane strain.
