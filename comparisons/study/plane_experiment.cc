@@ -1,5 +1,6 @@
 #include "comparisons/study/plane_experiment.h"
 
+#include "comparisons/methods/lower_order.h"
 #include "comparisons/metrics/error_indicator.h"
 #include "comparisons/metrics/error_norms.h"
 #include "comparisons/metrics/force_balance.h"
@@ -71,6 +72,8 @@ void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, 
   quantities["cloud_pivot_ratio"] = cloud.pivot_ratio;
   quantities["cloud_worst_x"] = cloud.worst_point[0];
   quantities["cloud_worst_y"] = cloud.worst_point[1];
+  if (cloud.n_pivoted > 0)
+    quantities["n_pivoted"] = static_cast<double>(cloud.n_pivoted);
 }
 
 /// The rule for every linear solver: its error is at most a hundredth of the discretisation's.
@@ -84,6 +87,14 @@ void check_algebraic_error(reports::Cell &cell) {
     cell.warnings.push_back(fmt::format("the linear system was solved with a relative error of {:.1e}, more than a "
                                         "hundredth of the displacement's",
                                         algebraic->second));
+}
+
+/// With the order that was solved, which may be lower than the one asked for.
+scene::Parameters solved_parameters(const scene::Parameters &asked, const methods::SolveRecord &record) {
+  const auto lowered = record.quantities.find("n_orders_lowered");
+  return lowered == record.quantities.end()
+             ? asked
+             : methods::with_order(asked, asked.integer("order") - static_cast<std::int64_t>(lowered->second));
 }
 
 class PlaneExperiment final : public Experiment {
@@ -141,8 +152,11 @@ public:
       add_cloud_quality(*cloud, cell.quantities);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
-    if (extras_.facts)
-      cell.quantities.merge(measured_facts(method, solve_request, *solution, *problem_, quadrature, cell.warnings));
+    if (extras_.facts) {
+      const auto parameters = solved_parameters(request.parameters, record);
+      const methods::SolveRequest solved{solve_request.statement, solve_request.cloud, solve_request.mesh, parameters};
+      cell.quantities.merge(measured_facts(method, solved, *solution, *problem_, quadrature, cell.warnings));
+    }
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())
