@@ -64,7 +64,8 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   return text;
 }
 
-void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, double> &quantities) {
+void add_cloud_quality(const methods::CloudReport &cloud, reports::Cell &cell) {
+  auto &quantities = cell.quantities;
   quantities["cloud_fewest_neighbours"] = static_cast<double>(cloud.fewest_neighbours);
   quantities["cloud_median_neighbours"] = static_cast<double>(cloud.median_neighbours);
   quantities["cloud_most_neighbours"] = static_cast<double>(cloud.most_neighbours);
@@ -72,8 +73,12 @@ void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, 
   quantities["cloud_pivot_ratio"] = cloud.pivot_ratio;
   quantities["cloud_worst_x"] = cloud.worst_point[0];
   quantities["cloud_worst_y"] = cloud.worst_point[1];
-  if (cloud.n_pivoted > 0)
-    quantities["n_pivoted"] = static_cast<double>(cloud.n_pivoted);
+  if (cloud.n_pivoted == 0)
+    return;
+  quantities["n_pivoted"] = static_cast<double>(cloud.n_pivoted);
+  cell.warnings.push_back(fmt::format("{} moment matrices at the particles and around them are not positive definite, "
+                                      "as the kernel is negative in places; factorised with complete pivoting",
+                                      cloud.n_pivoted));
 }
 
 /// The rule for every linear solver: its error is at most a hundredth of the discretisation's.
@@ -149,7 +154,7 @@ public:
       cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
     if (const auto cloud = solution->cloud())
-      add_cloud_quality(*cloud, cell.quantities);
+      add_cloud_quality(*cloud, cell);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
     if (extras_.facts) {
