@@ -55,8 +55,9 @@ private:
   meshless::elasticity::LinearSystem equations_;
 };
 
+/// Of the order asked for, whatever lower_order says.
 /// @param method weak1, weak2 or hybrid
-/// @throws as the method does
+/// @throws as the method does; basis::SingularMomentMatrix
 std::unique_ptr<WeakSystem> weak_system(const SolveRequest &request, const std::string &method);
 
 } // namespace comparisons::methods

@@ -4,6 +4,7 @@
 #include "comparisons/reports/page/page.h"
 #include "comparisons/reports/recoveries_section.h"
 #include "comparisons/reports/reports.h"
+#include "comparisons/reports/theory.h"
 #include "unit/reports/sample.h"
 
 #include <gtest/gtest.h>
@@ -39,14 +40,15 @@ const Table *recoveries_table(const Document &document) {
 
 } // namespace
 
-TEST(Recoveries, StandInEveryReportWithTheirRules) {
+TEST(RecoveriesSection, StandInEveryReportWithTheirRules) {
   for (const auto &report : all_reports(recovered()))
-    for (const char *part : {"Recoveries", "orders lowered", "the highest lower one", "particles enlarged", "12345"})
+    for (const char *part : {"Recoveries", "orders lowered", "particles enlarged", "12345"})
       EXPECT_TRUE(contains(report, part)) << part;
+  EXPECT_TRUE(contains(markdown_report(recovered()), "solved with the highest lower one that they carry"));
   EXPECT_FALSE(contains(text_report(recovered()), "sparse LU instead")) << "a rule that was not used";
 }
 
-TEST(Recoveries, HaveARowForEveryCell) {
+TEST(RecoveriesSection, HaveARowForEveryCell) {
   const Results results = recovered();
   Document document;
   append_recoveries(document, group_cells(results));
@@ -58,7 +60,7 @@ TEST(Recoveries, HaveARowForEveryCell) {
   EXPECT_EQ(table->rows(), rows);
 }
 
-TEST(Recoveries, AreNoSectionWhereThereIsNone) {
+TEST(RecoveriesSection, AreNoSectionWhereThereIsNone) {
   for (const auto &report : all_reports(reports_sample::results()))
     EXPECT_FALSE(contains(report, "Recoveries"));
   Results refused = reports_sample::results();
@@ -68,14 +70,22 @@ TEST(Recoveries, AreNoSectionWhereThereIsNone) {
   EXPECT_FALSE(contains(text_report(refused), "Recoveries")) << "a cell without a result has recovered nothing";
 }
 
-TEST(Recoveries, ComeBackFromTheResults) {
+TEST(RecoveriesSection, ALoweredOrderHasTheRateOfTheOneSolved) {
+  Cell cell = reports_sample::cell("scene", "weak1", "16x4", .01);
+  cell.parameters["order"] = 4;
+  EXPECT_EQ(theoretical_rate(cell, "stress_l2_relative"), 4);
+  cell.quantities["n_orders_lowered"] = 1;
+  EXPECT_EQ(theoretical_rate(cell, "stress_l2_relative"), 3);
+}
+
+TEST(RecoveriesSection, ComeBackFromTheResults) {
   const Results results = recovered();
   const Results again = parse_results(json_text(results));
   EXPECT_EQ(again.cells[0].quantities, results.cells[0].quantities);
   EXPECT_EQ(text_report(again), text_report(results));
 }
 
-TEST(Recoveries, AreInNoTableOfFurtherQuantities) {
+TEST(RecoveriesSection, AreInNoTableOfFurtherQuantities) {
   const std::string text = text_report(recovered());
   EXPECT_FALSE(contains(text.substr(text.find("Further errors and quantities")), "orders"));
 }

@@ -94,8 +94,11 @@ TEST(LowerOrder, takes_all_that_follows_from_the_order) {
 }
 
 TEST(LowerOrder, is_told_before_anything_is_solved) {
-  const auto scene = read(scene_text("cantilever", "\"16x4\"",
-                                     "name = [\"strong\", \"weak1\", \"mixed\"]\norder = 4\nlower_order = \"on\""));
+  std::string methods;
+  for (const char *method : {"strong", "weak1", "mixed"})
+    methods += fmt::format("{}name = \"{}\"\norder = 4\nlower_order = \"on\"\n", methods.empty() ? "" : "[[method]]\n",
+                           method);
+  const auto scene = read(scene_text("cantilever", "\"16x4\"", methods));
   const auto &catalogue = study::shipped_catalogue();
   const auto experiment = study::find_benchmark(catalogue, scene.benchmark)
                               .make_experiment(scene, scene.problems.front(), catalogue.methods);
@@ -147,7 +150,7 @@ TEST(Recoveries, pivoted_moment_matrices_are_counted) {
 }
 
 TEST(Recoveries, pivoted_moment_matrices_of_rods_are_counted) {
-  const std::string keys = "name = \"collocation\"\nkernel = ";
+  const std::string keys = "name = \"collocation\"\nbasis = \"ssph\"\nkernel = ";
   const auto negative = cell_of("rod_static", "21", keys + "\"super_gauss\"\nsupport = 4.0");
   ASSERT_EQ(negative.status, reports::Status::ok) << name_of(negative);
   EXPECT_GT(negative.quantities.at("n_pivoted"), 0);
