@@ -68,6 +68,12 @@ std::vector<HardCase> degenerate_cases() {
   add("gap of 4 h", "particles within 4 spacings of the middle left out", particle_solvers(), [](PlaneSetup &setup) {
     keep_if(setup.cloud, [](const Point2 &p) { return std::hypot(p[0] - .5, p[1] - .5) > .4; });
   });
+  add("four lines for order 4", "four lines of particles across, where order 4 needs five, with lower_order = \"on\"",
+      {"weak1"},
+      [=](PlaneSetup &setup) {
+        setup = rectangle({0, 0}, {1, .3}, {11, 4}, 0, 0, steel, field);
+      },
+      {{"order", std::int64_t{4}}, {"lower_order", std::string("on")}});
   for (const double support : {1.01, 1.5, 2., 2.5, 3., 4., 6.})
     add(fmt::format("support {:g} h", support), "a grid with this support of the kernel", particle_solvers(),
         [](PlaneSetup &) {}, {{"support", support}});

@@ -182,7 +182,7 @@ MethodFacts particle_facts(const SolveRequest &request, const std::string &metho
     return facts;
   }
   const auto equations =
-      std::make_shared<const meshless::elasticity::EquationsOfMotion>(equations_of_motion(still, method));
+      std::make_shared<const meshless::elasticity::EquationsOfMotion>(equations_of_motion(still, method).equations);
   add_pattern(equations->stiffness, facts);
   std::vector<bool> chosen(p.particles->size(), true);
   facts.symmetry_defect = symmetry_defect(equations->stiffness, chosen);

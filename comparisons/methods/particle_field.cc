@@ -1,5 +1,6 @@
 #include "comparisons/methods/particle_field.h"
 
+#include "comparisons/methods/recoveries.h"
 #include "comparisons/methods/solver_keys.h"
 
 #include "meshless/basis/grouped_evaluation.h"
@@ -19,8 +20,17 @@ namespace elasticity = meshless::elasticity;
 CloudReport cloud_report(const Prepared &prepared) {
   const auto quality = elasticity::cloud_quality(elasticity::Surroundings(prepared.problem.regions),
                                                  *prepared.particles, *prepared.basis, prepared.test_radius);
-  return {quality.fewest_neighbours,    quality.median_neighbours, quality.most_neighbours, quality.smallest_distance,
-          quality.smallest_pivot_ratio, quality.worst_point,       prepared.n_enlarged,     prepared.largest_factor};
+  return {.order = prepared.basis->order(),
+          .fewest_neighbours = quality.fewest_neighbours,
+          .median_neighbours = quality.median_neighbours,
+          .most_neighbours = quality.most_neighbours,
+          .smallest_distance = quality.smallest_distance,
+          .pivot_ratio = quality.smallest_pivot_ratio,
+          .worst_point = quality.worst_point,
+          .n_orders_lowered = prepared.order.n_lowered,
+          .n_enlarged = prepared.n_enlarged,
+          .largest_enlargement = prepared.largest_factor,
+          .n_pivoted = quality.n_indefinite};
 }
 
 ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared prepared,
@@ -33,7 +43,7 @@ ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared pre
   record_.nonzeros = solution_.nonzeros;
   record_.seconds = {{"points", prepared_.points_seconds},
                      {"neighbours", s.neighbours + prepared_.enlarge_seconds},
-                     {"basis", s.basis},
+                     {"basis", s.basis + prepared_.order.lost_seconds},
                      {"assembly", s.assembly},
                      {"solve", s.solve}};
   record_.quantities = {{"backward_error", solution_.backward_error},
@@ -44,17 +54,26 @@ ParticleField::ParticleField(elasticity::ParticleSolution solution, Prepared pre
     record_.quantities["solver_iterations"] = solution_.iterations;
   if (solution_.n_repeated > 0)
     record_.quantities["repeated_rows"] = static_cast<double>(solution_.n_repeated);
-  if (solution_.fell_back)
-    record_.warnings.push_back("the iteration for the linear system did not converge; solved by sparse LU");
-  if (prepared_.n_enlarged > 0) {
-    record_.quantities["n_enlarged"] = static_cast<double>(prepared_.n_enlarged);
-    record_.quantities["largest_enlargement"] = prepared_.largest_factor;
-    record_.warnings.push_back(fmt::format("smoothing lengths of {} particles enlarged, at most by {:.2f}",
-                                           prepared_.n_enlarged, prepared_.largest_factor));
-  }
+  add_recoveries();
   if (solution_.backward_error > 1e-10)
     record_.warnings.push_back(
         fmt::format("the linear system was solved with a backward error of {:.1e} only", solution_.backward_error));
+}
+
+void ParticleField::add_recoveries() {
+  auto recoveries = recoveries_of(prepared_);
+  record_.quantities.merge(recoveries.quantities);
+  record_.warnings.insert(record_.warnings.end(), recoveries.warnings.begin(), recoveries.warnings.end());
+  if (solution_.n_restarts > 0)
+    record_.quantities["n_restarts"] = solution_.n_restarts;
+  if (solution_.coarse_left_out) {
+    record_.quantities["n_coarse_left_out"] = 1;
+    record_.warnings.emplace_back("the coarse system of the preconditioner is singular; left out");
+  }
+  if (solution_.fell_back) {
+    record_.quantities["n_direct_instead"] = 1;
+    record_.warnings.emplace_back("the iteration for the linear system did not converge; solved by sparse LU");
+  }
 }
 
 std::vector<std::string> ParticleField::fields() const {

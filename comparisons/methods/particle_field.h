@@ -28,6 +28,8 @@ public:
   std::optional<CloudReport> cloud() const override { return cloud_report(prepared_); }
 
 private:
+  void add_recoveries();
+
   meshless::elasticity::ParticleSolution solution_;
   Prepared prepared_;
 };

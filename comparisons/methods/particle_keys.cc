@@ -52,7 +52,7 @@ std::vector<std::string> basis_names(Form form) {
   std::vector<std::string> names;
   for (const auto &basis : meshless::basis::basis_table()) {
     const bool able = collocates(form) ? basis.hessian_anywhere : form == Form::weak1 || basis.differentiable;
-    if (able && basis.highest_dimension >= 2 && basis.highest_order >= (collocates(form) ? 2 : 1))
+    if (able && basis.highest_dimension >= 2 && basis.highest_order >= least_order(form))
       names.emplace_back(basis.name);
   }
   return names;
@@ -91,7 +91,7 @@ std::vector<Declaration> basis_declarations(Form form) {
        .meaning = "how shape functions are made; those that weigh with volumes take the square of the spacing"},
       {.name = "order",
        .type = Type::integer,
-       .range = {.lower = collocates(form) ? 2. : 1., .upper = 4},
+       .range = {.lower = static_cast<double>(least_order(form)), .upper = 4},
        .default_value = std::int64_t{2},
        .meaning = "m, degree of the complete monomials"},
       {.name = "kernel",
@@ -120,6 +120,12 @@ std::vector<Declaration> basis_declarations(Form form) {
        .choices = {"auto", "on", "off"},
        .default_value = "auto",
        .meaning = "enlarge h, to twice at most, where the basis would be singular or poor; auto: on irregular clouds"},
+      {.name = "lower_order",
+       .type = Type::choice,
+       .choices = {"off", "on"},
+       .default_value = "off",
+       .meaning = "on: where the particles do not carry the order even so, the cell is solved with the highest lower "
+                  "one that they carry, with a warning; off: refused"},
   };
 }
 

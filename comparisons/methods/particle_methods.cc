@@ -2,8 +2,10 @@
 
 #include "comparisons/methods/corner_parameter.h"
 #include "comparisons/methods/locking.h"
+#include "comparisons/methods/lower_order.h"
 #include "comparisons/methods/particle_field.h"
 #include "comparisons/methods/particle_points.h"
+#include "comparisons/methods/recoveries.h"
 #include "comparisons/methods/solver_keys.h"
 
 #include "meshless/basis/basis_table.h"
@@ -11,6 +13,8 @@
 #include "meshless/elasticity/strong_form/collocation.h"
 #include "meshless/elasticity/weak_form/local_petrov_galerkin.h"
 #include "meshless/linear_algebra/stopwatch.h"
+
+#include <fmt/format.h>
 
 namespace comparisons::methods {
 
@@ -101,26 +105,29 @@ elasticity::ParticleSolution solve_form(const SolveRequest &request, Form form, 
 }
 
 std::unique_ptr<Solution> solve(const SolveRequest &request, Form form) {
-  try {
-    auto p = prepare(request, form);
+  return at_existing_order(request, form, [form](const SolveRequest &taken, const OrderSearch &search) {
+    auto p = prepare(taken, form);
+    p.order = search.taken();
     if (form == Form::weak1 || form == Form::weak2 || form == Form::hybrid)
-      p.weak = weak_parameters(request, form, p);
-    auto solution = solve_form(request, form, p);
-    auto warnings = forewarnings(request, form, p.regular);
+      p.weak = weak_parameters(taken, form, p);
+    auto solution = solve_form(taken, form, p);
+    auto warnings = forewarnings(taken, form, p.regular);
     return std::make_unique<ParticleField>(std::move(solution), std::move(p), std::move(warnings));
-  } catch (const meshless::basis::SingularMomentMatrix &error) {
-    throw Refused(error.what());
-  }
+  });
 }
 
 /// Collocation has no rows that are dear: two rows of a particle take what looking at its surroundings takes, and
 /// half as much again.
-CloudReport inspect(const SolveRequest &request, Form form) {
+CloudReport inspect_order(const SolveRequest &request, Form form, const OrderSearch &search) {
   constexpr std::size_t n_sampled = 40;
-  const auto p = prepare(request, form);
+  auto p = prepare(request, form);
+  p.order = search.taken();
   meshless::linear_algebra::Stopwatch watch;
   auto report = cloud_report(p);
   const double seconds = watch.lap();
+  if (search.may_lower() && !(report.pivot_ratio > meshless::basis::singular_pivot_ratio)) // the sample may miss it
+    throw meshless::basis::SingularMomentMatrix(
+        fmt::format("singular moment matrix at ({:.6g}, {:.6g})", report.worst_point[0], report.worst_point[1]));
   elasticity::RowSample rows{4 * static_cast<double>(p.particles->size() * report.median_neighbours), 1.5 * seconds};
   if (form == Form::mixed)
     rows = elasticity::mixed_form::sample_rows(p.problem, *p.particles, *p.basis, *pressure_basis(request, p),
@@ -131,6 +138,12 @@ CloudReport inspect(const SolveRequest &request, Form form) {
   report.nonzeros = rows.nonzeros;
   report.seconds = p.points_seconds + p.enlarge_seconds + rows.seconds;
   return report;
+}
+
+CloudReport inspect(const SolveRequest &request, Form form) {
+  return at_existing_order(request, form, [form](const SolveRequest &taken, const OrderSearch &search) {
+    return inspect_order(taken, form, search);
+  });
 }
 
 Form form_of(const std::string &method) {
@@ -185,23 +198,23 @@ std::unique_ptr<Solution> WeakSystem::solution(std::vector<double> coefficients)
                                          prepared_, std::vector<std::string>{});
 }
 
-meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method) {
+ParticleMotion equations_of_motion(const SolveRequest &request, const std::string &method) {
   const Form form = form_of(method);
-  const auto p = prepare(request, form);
   std::vector<double> densities;
   for (const auto &region : request.statement.regions)
     densities.push_back(region.material.density);
-  try {
+  return at_existing_order(request, form, [&](const SolveRequest &taken, const OrderSearch &search) {
+    auto p = prepare(taken, form);
+    p.order = search.taken();
     auto equations = form == Form::strong
                          ? elasticity::strong_form::equations_of_motion(p.problem, densities, p.particles, p.basis,
-                                                                        corner_rules(request))
+                                                                        corner_rules(taken))
                          : elasticity::weak_form::equations_of_motion(p.problem, densities, p.particles, p.basis,
-                                                                      weak_parameters(request, form, p));
+                                                                      weak_parameters(taken, form, p));
     equations.seconds.neighbours += p.points_seconds + p.enlarge_seconds;
-    return equations;
-  } catch (const meshless::basis::SingularMomentMatrix &error) {
-    throw Refused(error.what());
-  }
+    equations.seconds.basis += p.order.lost_seconds;
+    return ParticleMotion{std::move(equations), recoveries_of(p)};
+  });
 }
 
 } // namespace comparisons::methods

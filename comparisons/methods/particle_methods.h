@@ -2,6 +2,7 @@
 
 #include "comparisons/methods/method_table.h"
 #include "comparisons/methods/particle_points.h"
+#include "comparisons/methods/recoveries.h"
 
 #include "meshless/elasticity/equations_of_motion.h"
 #include "meshless/elasticity/linear_system.h"
@@ -27,9 +28,14 @@ Method hybrid();
 /// Displacement and pressure, both unknown: meshless::elasticity::mixed_form.
 Method mixed();
 
+struct ParticleMotion {
+  meshless::elasticity::EquationsOfMotion equations;
+  Recoveries recoveries;
+};
+
 /// The equations of motion of one of these methods, by its name, with the densities of the statement's materials.
 /// @throws Refused if a moment matrix is singular, or what the method throws
-meshless::elasticity::EquationsOfMotion equations_of_motion(const SolveRequest &request, const std::string &method);
+ParticleMotion equations_of_motion(const SolveRequest &request, const std::string &method);
 
 /// The linear system of a weak form, to be solved elsewhere.
 class WeakSystem {
@@ -49,8 +55,9 @@ private:
   meshless::elasticity::LinearSystem equations_;
 };
 
+/// Of the order asked for, whatever lower_order says.
 /// @param method weak1, weak2 or hybrid
-/// @throws as the method does
+/// @throws as the method does; basis::SingularMomentMatrix
 std::unique_ptr<WeakSystem> weak_system(const SolveRequest &request, const std::string &method);
 
 } // namespace comparisons::methods

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "comparisons/methods/lower_order.h"
 #include "comparisons/methods/method_table.h"
 #include "comparisons/methods/particle_keys.h"
 
@@ -19,6 +20,7 @@ struct Prepared {
   bool regular = true;
   std::shared_ptr<const meshless::cloud::Particles<2>> particles;
   std::shared_ptr<const meshless::basis::ShapeFunctions<2>> basis;
+  OrderTaken order;
   double test_radius = 0;
   std::size_t n_enlarged = 0;
   double largest_factor = 1;

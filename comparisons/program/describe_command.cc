@@ -77,13 +77,21 @@ private:
   int n_left_out_ = 0;
 };
 
+std::string recoveries_text(const methods::CloudReport &cloud) {
+  std::string text;
+  if (cloud.n_orders_lowered > 0)
+    text += fmt::format("; order {} does not exist: order {}", cloud.order + cloud.n_orders_lowered, cloud.order);
+  if (cloud.n_enlarged > 0)
+    text += fmt::format("; h of {} particles enlarged, at most by {:.2f}", cloud.n_enlarged, cloud.largest_enlargement);
+  if (cloud.n_pivoted > 0)
+    text += fmt::format("; {} moment matrices not positive definite", cloud.n_pivoted);
+  return text;
+}
+
 std::string cloud_row(const std::string &name, const scene::Level &level, const methods::CloudReport &cloud) {
   return fmt::format("  {:<34} {:>8} {:>6} {:>6} {:>6} {:>10.3g} {:>10.2e}  ({:.4g}, {:.4g}){}\n", name, level.text,
                      cloud.fewest_neighbours, cloud.median_neighbours, cloud.most_neighbours, cloud.smallest_distance,
-                     cloud.pivot_ratio, cloud.worst_point[0], cloud.worst_point[1],
-                     cloud.n_enlarged == 0 ? std::string()
-                                           : fmt::format("; h of {} particles enlarged, at most by {:.2f}",
-                                                         cloud.n_enlarged, cloud.largest_enlargement));
+                     cloud.pivot_ratio, cloud.worst_point[0], cloud.worst_point[1], recoveries_text(cloud));
 }
 
 void print_cells(const scene::Scene &scene, const study::Catalogue &catalogue) {

@@ -1,8 +1,8 @@
 #include "comparisons/reports/comparison_section.h"
 
 #include "comparisons/reports/facts_section.h"
-
 #include "comparisons/reports/numbers.h"
+#include "comparisons/reports/recoveries_section.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -142,7 +142,7 @@ std::vector<std::string> further_names(const Group &group) {
     for (const auto *map : {&cell->errors, &cell->quantities})
       for (const auto &entry : *map)
         if (!is_compared(group, entry.first) && !entry.first.starts_with("cloud_") && !is_fact(entry.first) &&
-            reportable(*cell, entry.first))
+            !is_recovery(entry.first) && reportable(*cell, entry.first))
           names.insert(entry.first);
   return {names.begin(), names.end()};
 }

@@ -15,6 +15,7 @@
 #include "comparisons/reports/page/page.h"
 #include "comparisons/reports/paraview.h"
 #include "comparisons/reports/plot.h"
+#include "comparisons/reports/recoveries_section.h"
 #include "comparisons/reports/scene_section.h"
 #include "comparisons/reports/solvers_section.h"
 #include "comparisons/reports/summary.h"
@@ -97,6 +98,7 @@ Document report_document(const Results &results) {
   append_equal_error(document, results);
   append_pareto(document, groups);
   append_rates(document, groups);
+  append_recoveries(document, groups);
   append_ledger(document, results);
   append_hard_cases(document, results);
   append_solvers(document, results);

@@ -26,9 +26,12 @@ std::optional<int> degree_of(const Cell &cell) {
   return degree >= 1 && degree <= 9 ? std::optional(degree) : std::nullopt;
 }
 
+/// The order that was solved.
 std::optional<int> order_of(const Cell &cell) {
   const auto found = cell.parameters.find("order");
-  return found != cell.parameters.end() && found->is_number_integer() ? std::optional(found->get<int>()) : std::nullopt;
+  if (found == cell.parameters.end() || !found->is_number_integer())
+    return std::nullopt;
+  return found->get<int>() - static_cast<int>(reportable(cell, "n_orders_lowered").value_or(0));
 }
 
 /// Bases that are exact up to their order; SPH and its corrections are not.

@@ -1,5 +1,6 @@
 #include "comparisons/study/plane_experiment.h"
 
+#include "comparisons/methods/lower_order.h"
 #include "comparisons/metrics/error_indicator.h"
 #include "comparisons/metrics/error_norms.h"
 #include "comparisons/metrics/force_balance.h"
@@ -63,7 +64,8 @@ std::string series_text(const problems::SampleLine &line, const methods::Solutio
   return text;
 }
 
-void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, double> &quantities) {
+void add_cloud_quality(const methods::CloudReport &cloud, reports::Cell &cell) {
+  auto &quantities = cell.quantities;
   quantities["cloud_fewest_neighbours"] = static_cast<double>(cloud.fewest_neighbours);
   quantities["cloud_median_neighbours"] = static_cast<double>(cloud.median_neighbours);
   quantities["cloud_most_neighbours"] = static_cast<double>(cloud.most_neighbours);
@@ -71,6 +73,12 @@ void add_cloud_quality(const methods::CloudReport &cloud, std::map<std::string, 
   quantities["cloud_pivot_ratio"] = cloud.pivot_ratio;
   quantities["cloud_worst_x"] = cloud.worst_point[0];
   quantities["cloud_worst_y"] = cloud.worst_point[1];
+  if (cloud.n_pivoted == 0)
+    return;
+  quantities["n_pivoted"] = static_cast<double>(cloud.n_pivoted);
+  cell.warnings.push_back(fmt::format("{} moment matrices at the particles and around them are not positive definite, "
+                                      "as the kernel is negative in places; factorised with complete pivoting",
+                                      cloud.n_pivoted));
 }
 
 /// The rule for every linear solver: its error is at most a hundredth of the discretisation's.
@@ -84,6 +92,14 @@ void check_algebraic_error(reports::Cell &cell) {
     cell.warnings.push_back(fmt::format("the linear system was solved with a relative error of {:.1e}, more than a "
                                         "hundredth of the displacement's",
                                         algebraic->second));
+}
+
+/// With the order that was solved, which may be lower than the one asked for.
+scene::Parameters solved_parameters(const scene::Parameters &asked, const methods::SolveRecord &record) {
+  const auto lowered = record.quantities.find("n_orders_lowered");
+  return lowered == record.quantities.end()
+             ? asked
+             : methods::with_order(asked, asked.integer("order") - static_cast<std::int64_t>(lowered->second));
 }
 
 class PlaneExperiment final : public Experiment {
@@ -138,11 +154,14 @@ public:
       cell.warnings.push_back(std::move(doubt));
     metrics::add_requested_quantities(*solution, *problem_, quadrature, equilibrium, cell.quantities);
     if (const auto cloud = solution->cloud())
-      add_cloud_quality(*cloud, cell.quantities);
+      add_cloud_quality(*cloud, cell);
     for (auto &remark : problem_->remarks())
       cell.warnings.push_back(std::move(remark));
-    if (extras_.facts)
-      cell.quantities.merge(measured_facts(method, solve_request, *solution, *problem_, quadrature, cell.warnings));
+    if (extras_.facts) {
+      const auto parameters = solved_parameters(request.parameters, record);
+      const methods::SolveRequest solved{solve_request.statement, solve_request.cloud, solve_request.mesh, parameters};
+      cell.quantities.merge(measured_facts(method, solved, *solution, *problem_, quadrature, cell.warnings));
+    }
     const double evaluation = watch.lap();
     cell.seconds["evaluation"] = {evaluation, evaluation, evaluation};
     if (series_directory.empty())

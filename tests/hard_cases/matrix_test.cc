@@ -118,6 +118,13 @@ TEST(Locking, shows_in_displacement_methods_with_a_warning_and_not_in_mixed_ones
   }
 }
 
+TEST(LowerOrder, holds_on_a_cloud_too_thin_for_the_order_with_a_warning) {
+  const auto cell = one("four lines for order 4", "weak1");
+  EXPECT_EQ(cell.verdict, CellVerdict::holds) << cell.reason;
+  ASSERT_FALSE(cell.warnings.empty());
+  EXPECT_NE(cell.warnings[0].find("solved with order 3"), std::string::npos) << cell.warnings[0];
+}
+
 TEST(Mixed, is_consistent_and_the_same_for_every_nu) {
   for (const auto *hard_case : {"quadratic, nu=0.499999", "ring, errors for every nu", "oscillation of the pressure"})
     EXPECT_EQ(one(hard_case, "mixed").verdict, CellVerdict::holds) << hard_case;

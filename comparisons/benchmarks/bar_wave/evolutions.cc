@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace comparisons::benchmarks::bar_wave {
@@ -25,7 +26,8 @@ double energy_balance(double energy, double work) { return work != 0 ? energy / 
 
 class SsphBar final : public BarEvolution {
 public:
-  SsphBar(const meshless::dynamics::BarOptions &options) : places_(options.positions), bar_(options) {}
+  SsphBar(const meshless::dynamics::BarOptions &options, PivotCount n_pivoted)
+      : places_(options.positions), n_pivoted_(std::move(n_pivoted)), bar_(options) {}
 
   double time() const override { return bar_.time(); }
   std::int64_t steps() const override { return bar_.steps(); }
@@ -45,11 +47,13 @@ public:
   double work() const override { return bar_.work(); }
   std::int64_t n_dofs() const override { return bar_.n_particles(); }
   std::int64_t nonzeros() const override { return bar_.nonzeros(); }
+  std::size_t n_pivoted() const override { return *n_pivoted_; }
 
   meshless::dynamics::ElasticBar &bar() { return bar_; }
 
 private:
   std::vector<double> places_;
+  PivotCount n_pivoted_;
   meshless::dynamics::ElasticBar bar_;
 };
 
@@ -107,7 +111,8 @@ meshless::kernels::Kernel kernel_of(const scene::Parameters &method) {
   return meshless::kernels::make_kernel(method.text("kernel"), optional("support"), optional("kernel_parameter"));
 }
 
-std::function<LineOperators(std::span<const double>)> ssph_rows(const scene::Parameters &method, double spacing) {
+std::function<LineOperators(std::span<const double>)> ssph_rows(const scene::Parameters &method, double spacing,
+                                                                const PivotCount &n_pivoted) {
   const double h = method.real("smoothing_length") * spacing;
   const std::shared_ptr<const meshless::basis::ShapeFunctions<1>> basis =
       meshless::basis::make_ssph<1>(static_cast<int>(method.integer("order")), kernel_of(method));
@@ -118,6 +123,7 @@ std::function<LineOperators(std::span<const double>)> ssph_rows(const scene::Par
     const meshless::cloud::Particles<1> particles(points, std::vector<double>(points.size(), h));
     try {
       auto rows = meshless::basis::make_derivative_operators<1>(*basis, particles, {.gradient = true, .hessian = true});
+      *n_pivoted = std::max(*n_pivoted, rows.n_indefinite);
       return LineOperators{std::move(rows.gradient.front()), std::move(rows.hessian.front())};
     } catch (const meshless::basis::SingularMomentMatrix &error) {
       throw methods::Refused(error.what());
@@ -131,7 +137,8 @@ std::unique_ptr<BarEvolution> ssph_bar(const scene::Parameters &method, const Pu
   options.positions = bar_places(pulse.length, n);
   options.youngs_modulus = modulus_of(pulse);
   options.density = density_of(pulse);
-  options.operators = ssph_rows(method, pulse.length / (n - 1));
+  const auto n_pivoted = std::make_shared<std::size_t>(0);
+  options.operators = ssph_rows(method, pulse.length / (n - 1), n_pivoted);
   options.kernel_positions = method.text("positions") == "current" ? meshless::dynamics::KernelPositions::current
                                                                    : meshless::dynamics::KernelPositions::reference;
   options.right_stress = [pulse](double t) { return pulse.load(t); };
@@ -139,7 +146,7 @@ std::unique_ptr<BarEvolution> ssph_bar(const scene::Parameters &method, const Pu
     options.viscosity = meshless::effects::LinearViscosity{*effects.viscosity};
   if (effects.damping)
     options.damping = meshless::effects::Damping{*effects.damping};
-  auto evolution = std::make_unique<SsphBar>(options);
+  auto evolution = std::make_unique<SsphBar>(options, n_pivoted);
   const auto &bar = evolution->bar();
   if (const double growth = bar.growth_rate(); growth * bar.spacing() / bar.wave_speed() > rounding_growth)
     throw meshless::dynamics::Violation(

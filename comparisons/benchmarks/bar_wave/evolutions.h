@@ -8,7 +8,6 @@
 #include "meshless/kernels/kernel_table.h"
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,7 +26,7 @@ public:
   virtual double work() const = 0;                ///< J/m^2
   virtual std::int64_t n_dofs() const = 0;
   virtual std::int64_t nonzeros() const { return 0; }
-  virtual std::map<std::string, double> further_quantities() const { return {}; }
+  virtual std::size_t n_pivoted() const { return 0; } ///< PivotCount
 };
 
 /// The keys of the effects of a bar, absent if the scene does not call for them.
@@ -41,10 +40,14 @@ struct BarEffects {
 /// Uniform particles from end to end.
 std::vector<double> bar_places(double length, int n);
 
+/// Particles whose moment matrix was not positive definite and factorised with complete pivoting, the most at a time.
+using PivotCount = std::shared_ptr<std::size_t>;
+
 /// The derivative rows of SSPH as the method's keys say, h over `spacing`.
 /// @throws methods::Refused if a moment matrix is singular
 std::function<meshless::dynamics::LineOperators(std::span<const double>)> ssph_rows(const scene::Parameters &method,
-                                                                                    double spacing);
+                                                                                    double spacing,
+                                                                                    const PivotCount &n_pivoted);
 meshless::kernels::Kernel kernel_of(const scene::Parameters &method);
 
 /// @throws meshless::dynamics::Violation if the operator has eigenvalues that grow

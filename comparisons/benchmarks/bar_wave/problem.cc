@@ -127,6 +127,8 @@ private:
       return;
     cell.errors = errors;
     cell.quantities = outcome.measured;
+    if (bar->n_pivoted() > 0)
+      cell.quantities["n_pivoted"] = static_cast<double>(bar->n_pivoted());
     cell.quantities["time_step"] = outcome.largest_step;
     cell.quantities["cfl"] = outcome.largest_step / bar->step_unit();
     cell.quantities["cfl_limit"] = bar->stable_step() / bar->step_unit();
@@ -190,6 +192,7 @@ private:
                      reports::Cell &cell) const {
     if (request.name == "fem")
       throw methods::Refused("the stretched bar is a test of particles; finite elements have no kernels to move");
+    const auto n_pivoted = std::make_shared<std::size_t>(0);
     meshless::dynamics::StretchedBarOptions options{.kernel = kernel_of(request.parameters)};
     options.n_particles = static_cast<std::size_t>(n);
     options.spacing = pulse_.length / (n - 1);
@@ -202,12 +205,14 @@ private:
                                    ? meshless::dynamics::KernelPositions::current
                                    : meshless::dynamics::KernelPositions::reference;
     if (request.name == "ssph")
-      options.operators = ssph_rows(request.parameters, options.spacing);
+      options.operators = ssph_rows(request.parameters, options.spacing, n_pivoted);
     StretchedEvolution evolution(options);
     const auto outcome = study::run_in_time(evolution, time_, services);
     cell.n_dofs = n;
     cell.steps = evolution.steps();
     keep_seconds({{"solve", outcome.seconds}}, cell);
+    if (*n_pivoted > 0)
+      cell.quantities["n_pivoted"] = static_cast<double>(*n_pivoted);
     cell.quantities["growth"] = evolution.largest_growth();
     cell.quantities["time_step"] = outcome.largest_step;
   }

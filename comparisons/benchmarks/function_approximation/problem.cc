@@ -331,6 +331,8 @@ private:
                       n_indefinite));
     if (!with_errors)
       return;
+    if (n_indefinite > 0)
+      cell.quantities["n_pivoted"] = static_cast<double>(n_indefinite);
     watch.lap();
     const auto &exact = exact_at(level.text, arrangement);
     add_errors<dim>(at_particles, exact.at_particles, arrangement.volumes, "_sum", cell.errors);

@@ -88,8 +88,11 @@ private:
 class ParticlePlate final : public PlateEvolution {
 public:
   ParticlePlate(const methods::SolveRequest &request, const std::string &method, const Watch &watch)
-      : PlateEvolution(watch), equations_(std::make_shared<const meshless::elasticity::EquationsOfMotion>(
-                                   methods::equations_of_motion(request, method))),
+      : ParticlePlate(methods::equations_of_motion(request, method), request, watch) {}
+
+  ParticlePlate(methods::ParticleMotion motion, const methods::SolveRequest &request, const Watch &watch)
+      : PlateEvolution(watch), recoveries_(std::move(motion.recoveries)),
+        equations_(std::make_shared<const meshless::elasticity::EquationsOfMotion>(std::move(motion.equations))),
         motion_(equations_, options_of(request, watch)),
         energy_(*equations_, densities_of(request.statement),
                 {watch.quadrature.points, watch.quadrature.weights, watch.force_points, watch.forces}),
@@ -105,6 +108,7 @@ public:
   std::int64_t n_dofs() const override { return equations_->stiffness.n_rows(); }
   std::int64_t nonzeros() const override { return equations_->stiffness.nonzeros(); }
   std::map<std::string, double> seconds() const override { return phases_of(equations_->seconds); }
+  methods::Recoveries recoveries() const override { return recoveries_; }
   meshless::dynamics::State state() override { return motion_.state(); }
   void adopt_state() override { motion_.adopt_state(); }
 
@@ -120,6 +124,7 @@ private:
 
   void advance(double dt) override { motion_.step(dt); }
 
+  methods::Recoveries recoveries_;
   std::shared_ptr<const meshless::elasticity::EquationsOfMotion> equations_;
   meshless::dynamics::PlaneMotion motion_;
   meshless::elasticity::FieldEnergy energy_;
@@ -151,9 +156,10 @@ double growth_rate(const Spectrum &spectrum, double rounding) {
 Spectrum spectrum(const methods::SolveRequest &request, const std::string &method, unsigned wanted, double scale) {
   if (method == "fem")
     return of_elements(request, wanted);
-  const auto equations = methods::equations_of_motion(request, method);
+  const auto [equations, recoveries] = methods::equations_of_motion(request, method);
   Stopwatch watch;
   Spectrum result;
+  result.recoveries = recoveries;
   result.n_dofs = equations.stiffness.n_rows();
   result.nonzeros = equations.stiffness.nonzeros();
   result.seconds = phases_of(equations.seconds);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "comparisons/methods/method_table.h"
+#include "comparisons/methods/recoveries.h"
 #include "comparisons/problems/plane_problem.h"
 #include "comparisons/scene/scene.h"
 #include "comparisons/study/transient.h"
@@ -25,6 +26,7 @@ struct Spectrum {
   std::int64_t n_dofs = 0;
   std::int64_t nonzeros = 0;
   std::map<std::string, double> seconds;
+  methods::Recoveries recoveries;
 };
 
 /// Largest growth rate of a motion exp(i omega t): the imaginary part of the roots, 1/s. Roots of squares smaller than
@@ -70,6 +72,7 @@ public:
   virtual std::int64_t n_dofs() const = 0;
   virtual std::int64_t nonzeros() const = 0;
   virtual std::map<std::string, double> seconds() const = 0;
+  virtual methods::Recoveries recoveries() const { return {}; }
 
 protected:
   virtual void advance(double time_step) = 0;

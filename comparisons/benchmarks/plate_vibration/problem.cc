@@ -215,6 +215,11 @@ private:
     cell.seconds["total"] = {total, total, total};
   }
 
+  static void keep_recoveries(const methods::Recoveries &recoveries, reports::Cell &cell) {
+    cell.quantities.insert(recoveries.quantities.begin(), recoveries.quantities.end());
+    cell.warnings.insert(cell.warnings.end(), recoveries.warnings.begin(), recoveries.warnings.end());
+  }
+
   void fill_spectrum(const Spectrum &found, reports::Cell &cell) const {
     double largest = 0;
     for (const auto &square : found.squares)
@@ -247,6 +252,7 @@ private:
     keep_seconds(found.seconds, cell);
     if (!with_errors)
       return;
+    keep_recoveries(found.recoveries, cell);
     const auto frequencies = sorted(found, n_rigid());
     std::vector<double> mode, omega, exact;
     double worst = 0;
@@ -299,6 +305,7 @@ private:
     keep_seconds(seconds, cell);
     if (!with_errors)
       return;
+    keep_recoveries(plate->recoveries(), cell);
     cell.quantities["time_step"] = outcome.largest_step;
     cell.quantities["cfl"] = outcome.largest_step / watch.step_unit;
     if (std::isfinite(plate->stable_step()))

@@ -84,6 +84,8 @@ void Measurement::write(reports::Cell &cell) const {
     total += phase == "evaluation" ? 0 : value;
   }
   cell.seconds["total"] = {total, total, total};
+  if (n_pivoted > 0)
+    cell.quantities["n_pivoted"] = static_cast<double>(n_pivoted);
   for (const auto &[name, values] : errors_) {
     if (values.size() == 1) {
       cell.errors[name] = values.front();

@@ -19,12 +19,14 @@ class Measurement {
 public:
   /// Seconds by phase, summed over the arrangements.
   std::map<std::string, double> seconds;
+  /// Moment matrices of all arrangements that are not positive definite: factorised with complete pivoting.
+  std::size_t n_pivoted = 0;
 
   /// The errors of one more arrangement.
   void add(const std::map<std::string, double> &errors);
 
-  /// Seconds with their total, memory and, if any were added, the errors: geometric means, with those of every
-  /// arrangement as quantities "<error>_seed_<k>" for `add_slopes`, which removes them.
+  /// Seconds with their total, memory, `n_pivoted` if there are any and, if any were added, the errors: geometric
+  /// means, with those of every arrangement as quantities "<error>_seed_<k>" for `add_slopes`, which removes them.
   void write(reports::Cell &cell) const;
 
 private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "comparisons/benchmarks/rod/arrangement.h"
+#include "comparisons/benchmarks/rod/measurement.h"
 #include "comparisons/methods/method_table.h"
 #include "comparisons/study/experiment.h"
 
@@ -35,11 +36,12 @@ struct ParticleOperators {
   meshless::linear_algebra::SparseRows second;
 };
 
-/// The operators of a method at the places. Seconds are added to the phases points, neighbours and basis.
+/// The operators of a method at the places. Seconds are added to the phases points, neighbours and basis, and moment
+/// matrices that are not positive definite counted.
 /// @throws methods::Refused naming the particle that has fewer neighbours than the basis needs, or saying that a moment
 ///   matrix is singular
 ParticleOperators particle_operators(const scene::Parameters &method, const std::vector<double> &places,
-                                     std::map<std::string, double> &seconds);
+                                     Measurement &measurement);
 
 /// Rough figures for one cell of `n_arrangements`.
 study::Estimate estimate(const scene::MethodRequest &request, int n, std::size_t n_arrangements);

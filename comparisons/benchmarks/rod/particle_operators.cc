@@ -37,7 +37,8 @@ void require_neighbours(const std::vector<double> &places, double support, doubl
 } // namespace
 
 ParticleOperators particle_operators(const scene::Parameters &method, const std::vector<double> &places,
-                                     std::map<std::string, double> &seconds) {
+                                     Measurement &measurement) {
+  auto &seconds = measurement.seconds;
   meshless::linear_algebra::Stopwatch watch;
   const auto basis = make_basis(method);
   const auto volumes = method.text("volumes") == "equal" ? Volumes::equal : Volumes::voronoi;
@@ -49,6 +50,7 @@ ParticleOperators particle_operators(const scene::Parameters &method, const std:
     auto operators =
         meshless::basis::make_derivative_operators<1>(*basis, particles, {.gradient = true, .hessian = true});
     seconds["basis"] += watch.lap();
+    measurement.n_pivoted += operators.n_indefinite;
     return {std::move(operators.gradient.front()), std::move(operators.hessian.front())};
   } catch (const meshless::basis::SingularMomentMatrix &error) {
     throw methods::Refused(error.what());

@@ -64,9 +64,8 @@ public:
       meshless::linear_algebra::Stopwatch watch;
       const std::vector<double> places = arrangement.places();
       measurement.seconds["points"] += watch.lap();
-      const Derivatives computed = request.name == "fem"
-                                       ? by_elements(request.parameters, places, measurement.seconds)
-                                       : by_particles(request.parameters, places, measurement.seconds);
+      const Derivatives computed = request.name == "fem" ? by_elements(request.parameters, places, measurement.seconds)
+                                                         : by_particles(request.parameters, places, measurement);
       watch.lap();
       if (with_errors)
         measurement.add(errors(places, computed));
@@ -91,8 +90,9 @@ public:
 
 private:
   Derivatives by_particles(const scene::Parameters &method, const std::vector<double> &places,
-                           std::map<std::string, double> &seconds) const {
-    const auto operators = rod::particle_operators(method, places, seconds);
+                           rod::Measurement &measurement) const {
+    auto &seconds = measurement.seconds;
+    const auto operators = rod::particle_operators(method, places, measurement);
     meshless::linear_algebra::Stopwatch watch;
     const std::vector<double> values = at(function_.value, places);
     Derivatives result{std::vector<double>(places.size()), std::vector<double>(places.size()),

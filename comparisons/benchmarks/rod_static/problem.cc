@@ -102,7 +102,7 @@ public:
       const std::vector<double> places = arrangement.places();
       measurement.seconds["points"] += watch.lap();
       const Solved solved = request.name == "fem" ? by_elements(request.parameters, places, measurement.seconds)
-                                                  : by_particles(request.parameters, places, measurement.seconds);
+                                                  : by_particles(request.parameters, places, measurement);
       watch.lap();
       if (with_errors)
         measurement.add(errors(places, solved));
@@ -131,8 +131,9 @@ public:
 
 private:
   Solved by_particles(const scene::Parameters &method, const std::vector<double> &places,
-                      std::map<std::string, double> &seconds) const {
-    const auto operators = rod::particle_operators(method, places, seconds);
+                      rod::Measurement &measurement) const {
+    auto &seconds = measurement.seconds;
+    const auto operators = rod::particle_operators(method, places, measurement);
     Stopwatch watch;
     SparseRows matrix = assemble(operators, youngs_modulus_);
     std::vector<double> load = at(statement_.force, places);

@@ -62,7 +62,7 @@ public:
     const std::vector<double> places = arrangement.places();
     measurement.seconds["points"] += watch.lap();
     const Spectrum spectrum = request.name == "fem" ? by_elements(request.parameters, places, measurement.seconds)
-                                                    : by_particles(request.parameters, places, measurement.seconds);
+                                                    : by_particles(request.parameters, places, measurement);
     cell.dimension = 1;
     cell.n_points = arrangement.n;
     cell.n_dofs = spectrum.n_dofs;
@@ -94,8 +94,9 @@ private:
   }
 
   Spectrum by_particles(const scene::Parameters &method, const std::vector<double> &places,
-                        std::map<std::string, double> &seconds) const {
-    const auto operators = rod::particle_operators(method, places, seconds);
+                        rod::Measurement &measurement) const {
+    auto &seconds = measurement.seconds;
+    const auto operators = rod::particle_operators(method, places, measurement);
     Stopwatch watch;
     const auto matrix = interior(operators.second, youngs_modulus_ / density_);
     seconds["assembly"] += watch.lap();

@@ -76,10 +76,15 @@ public:
       for (const auto *effect : {"artificial_viscosity", "heat_conduction"})
         if (scene_.effect_parameters.contains(effect))
           cell.warnings.push_back(fmt::format("{}: not added; the numerical flux dissipates by itself", effect));
+    if (gas->n_shrunk_slopes() > 0)
+      cell.warnings.push_back(fmt::format("the slopes of cells were shrunk {} times, as the state at an end was no gas",
+                                          gas->n_shrunk_slopes()));
     if (!with_errors)
       return;
     cell.errors = errors;
     cell.quantities = outcome.measured;
+    if (gas->n_shrunk_slopes() > 0)
+      cell.quantities["n_shrunk_slopes"] = static_cast<double>(gas->n_shrunk_slopes());
     for (const auto &[name, value] : gas->balances())
       cell.quantities[name] = value;
     cell.quantities["largest_step"] = outcome.largest_step;

@@ -114,6 +114,8 @@ public:
     return {{"mass_error", std::abs(gas_.totals()[0] / first_[0] - 1)}, {"energy_error", std::abs(energy_error())}};
   }
 
+  std::int64_t n_shrunk_slopes() const override { return gas_.n_shrunk_slopes(); }
+
 private:
   double gamma_;
   bool walls_;

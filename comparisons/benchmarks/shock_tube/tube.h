@@ -46,6 +46,8 @@ public:
   /// Relative errors of mass, of momentum (over sum |m v|, less what enters at the ends) and of energy; absent where
   /// the ends are open.
   virtual std::map<std::string, double> balances() const = 0;
+  /// fem_reference::gas::DiscontinuousGalerkin::n_shrunk_slopes; 0 for particles.
+  virtual std::int64_t n_shrunk_slopes() const { return 0; }
 };
 
 /// Equal masses: of n particles as many to the left of x = 0 as the left part has of the mass.

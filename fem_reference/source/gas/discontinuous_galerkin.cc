@@ -136,7 +136,7 @@ void DiscontinuousGalerkin::rates(const Cells &mean, const Cells &slope) {
   }
 }
 
-void DiscontinuousGalerkin::limit(const Cells &mean, Cells &slope) const {
+void DiscontinuousGalerkin::limit(const Cells &mean, Cells &slope) {
   const std::size_t n = mean.size();
   // Up to three quarters of the difference of two means is reached at a cell's end.
   const double share = 0.75 / traces_[1];
@@ -148,9 +148,11 @@ void DiscontinuousGalerkin::limit(const Cells &mean, Cells &slope) const {
     // Where a trace would be no gas the slopes shrink until it is one.
     for (int halving = 0;
          halving < 60 && !(is_gas(sum(mean[i], traces_[1], slope[i])) && is_gas(sum(mean[i], traces_[0], slope[i])));
-         ++halving)
+         ++halving) {
+      n_shrunk_slopes_ += halving == 0;
       for (double &s : slope[i])
         s *= 0.5;
+    }
   }
 }
 
@@ -198,8 +200,8 @@ void DiscontinuousGalerkin::evaluate(std::span<const double> places, std::span<P
 }
 
 std::vector<std::pair<std::string, std::span<double>>> DiscontinuousGalerkin::state() {
-  counters_ = {time_};
-  std::vector<std::pair<std::string, std::span<double>>> all{{"time", counters_}};
+  counters_ = {time_, static_cast<double>(n_shrunk_slopes_)};
+  std::vector<std::pair<std::string, std::span<double>>> all{{"time_and_shrunk_slopes", counters_}};
   all.emplace_back("mean", std::span(mean_.front().data(), 3 * mean_.size()));
   if (degree_ == 1)
     all.emplace_back("slope", std::span(slope_.front().data(), 3 * slope_.size()));

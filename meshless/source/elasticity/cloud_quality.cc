@@ -93,6 +93,7 @@ CloudQuality cloud_quality(const Surroundings &surroundings, const cloud::Partic
       }
     }
     counts.push_back(n_neighbours);
+    quality.n_indefinite += regularity.n_indefinite;
     if (regularity.smallest_pivot_ratio < quality.smallest_pivot_ratio) {
       quality.smallest_pivot_ratio = regularity.smallest_pivot_ratio;
       quality.worst = i;

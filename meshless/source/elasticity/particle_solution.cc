@@ -22,6 +22,8 @@ void ParticleSolution::set_figures(const SolveSeconds &spent, std::int64_t entri
   solver = system.taken;
   iterations = system.iterations;
   fell_back = system.fell_back;
+  n_restarts = system.n_restarts;
+  coarse_left_out = system.coarse_left_out;
 }
 
 void ParticleSolution::set_pressure(PressureField pressure) {

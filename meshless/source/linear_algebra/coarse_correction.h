@@ -23,6 +23,8 @@ public:
 
   /// x = the preconditioned r; all of 2 n_rows() entries.
   void apply(std::span<const double> r, std::span<double> x);
+  /// The coarse system is regular; if not, the factors stand alone.
+  bool regular() const { return coarse_lu_.has_value(); }
   /// Without those of the incomplete factors.
   std::size_t bytes() const;
 

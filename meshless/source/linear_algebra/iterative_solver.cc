@@ -80,6 +80,8 @@ PreconditionedSystem::~PreconditionedSystem() = default;
 
 double PreconditionedSystem::reciprocal_condition() const { return parts_->factors.pivot_ratio(); }
 
+bool PreconditionedSystem::coarse_left_out() const { return parts_->coarse && !parts_->coarse->regular(); }
+
 std::size_t PreconditionedSystem::bytes() const {
   return parts_->factors.bytes() + (parts_->coarse ? parts_->coarse->bytes() : 0);
 }
@@ -115,8 +117,8 @@ std::optional<IterativeResult> solve_iteratively(const SparseRows &matrix, std::
     auto solved = system.solve(settings.krylov, right_hand_side, settings.tolerance);
     if (!solved.converged)
       return {};
-    return IterativeResult{std::move(solved.solution), solved.iterations, solved.algebraic_error,
-                           system.reciprocal_condition()};
+    return IterativeResult{std::move(solved.solution),    solved.iterations, solved.algebraic_error,
+                           system.reciprocal_condition(), solved.n_restarts, system.coarse_left_out()};
   } catch (const SolveError &) {
     return {};
   }

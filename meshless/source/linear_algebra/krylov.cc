@@ -52,6 +52,7 @@ KrylovResult solve_krylov(Krylov krylov, const LinearOperator &matrix, double no
   for (int start = 0; start < max_starts && result.backward_error > tolerance.backward_error &&
                       result.iterations < tolerance.max_iterations;
        ++start) {
+    result.n_restarts = start;
     result.iterations += iteration->run(x, residual, loose, tolerance.max_iterations - result.iterations);
     matrix(x, image);
     for (std::size_t i = 0; i < n; ++i)

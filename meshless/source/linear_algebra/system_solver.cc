@@ -39,6 +39,8 @@ SystemSolution solve_system(const SparseRows &matrix, std::span<const double> ri
     if (auto iterated = solve_iteratively(matrix, right_hand_side, settings)) {
       result.solution = std::move(iterated->solution);
       result.iterations = iterated->iterations;
+      result.n_restarts = iterated->n_restarts;
+      result.coarse_left_out = iterated->coarse_left_out;
       result.algebraic_error = iterated->algebraic_error;
       result.reciprocal_condition = iterated->reciprocal_condition;
     } else {

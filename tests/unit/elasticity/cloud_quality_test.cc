@@ -2,6 +2,7 @@
 
 #include "concave_samples.h"
 
+#include "meshless/basis/derivative_operators.h"
 #include "meshless/elasticity/cell_shapes.h"
 #include "meshless/elasticity/cloud_quality.h"
 
@@ -31,6 +32,22 @@ TEST(CloudQuality, of_a_grid_can_be_counted) {
   EXPECT_EQ(quality.fewest_at, 0u);
   EXPECT_NEAR(quality.smallest_distance, 1, 1e-12);
   EXPECT_GT(quality.smallest_pivot_ratio, 1e-4);
+}
+
+TEST(CloudQuality, counts_moment_matrices_that_are_not_positive_definite) {
+  auto points = sample_clouds::grid<2>({11, 11}, {0, 0}, {1, 1});
+  const cloud::Particles<2> particles(points, cloud::smoothing_lengths_by_nearest<2>(points, 1));
+  const auto surroundings = unit_square();
+  const auto count = [&](const kernels::Kernel &kernel, double reach) {
+    return cloud_quality(surroundings, particles, *basis::make_ssph<2>(2, kernel), reach).n_indefinite;
+  };
+  EXPECT_EQ(count(kernels::Gauss(4), 1), 0u);
+  const auto negative = kernels::make_kernel("super_gauss", 4);
+  const auto operators =
+      basis::make_derivative_operators<2>(*basis::make_ssph<2>(2, negative), particles, {.gradient = true});
+  EXPECT_GT(operators.n_indefinite, 0u);
+  EXPECT_EQ(count(negative, 0), operators.n_indefinite) << "at the particles alone";
+  EXPECT_GE(count(negative, 1), operators.n_indefinite) << "and around them";
 }
 
 TEST(CloudQuality, counts_what_is_visible_only) {

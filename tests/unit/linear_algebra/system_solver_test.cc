@@ -72,6 +72,46 @@ TEST(IterativeSolver, takes_parts_that_do_not_hang_together) {
     EXPECT_NEAR(result->solution[i], expected[i], 1e-11) << i;
 }
 
+/// What cannot be reached is tried for as long as the error falls tenfold: from the true residual each time.
+TEST(IterativeSolver, counts_how_often_it_starts_anew) {
+  const auto matrix = wide_rows(20, balanced_centre());
+  const auto expected = wavy(static_cast<std::size_t>(matrix.n_rows()));
+  std::vector<double> b(expected.size());
+  matrix.multiply(expected, b);
+  IterativeSettings loose;
+  loose.tolerance.backward_error = 1e-6;
+  IterativeSettings unreachable;
+  unreachable.tolerance.backward_error = 1e-17; // below rounding; a hundred times that is accepted
+  const auto easy = solve_iteratively(matrix, b, loose);
+  const auto hard = solve_iteratively(matrix, b, unreachable);
+  ASSERT_TRUE(easy);
+  ASSERT_TRUE(hard);
+  EXPECT_EQ(easy->n_restarts, 0);
+  EXPECT_GE(hard->n_restarts, 1);
+  EXPECT_EQ(solve_system(matrix, b, SystemSolver::direct).n_restarts, 0);
+}
+
+/// Two particles are one aggregate; the sum of all entries of each direction is 0, so that the coarse system is
+/// singular and the matrix is not: det (1 3; -5 1) = 16.
+TEST(IterativeSolver, leaves_a_singular_coarse_system_out_and_says_so) {
+  SparseRows matrix(4);
+  for (std::int64_t d = 0; d < 2; ++d)
+    matrix.append_row(std::vector<std::int64_t>{d, 2 + d}, std::vector<double>{1, 3});
+  for (std::int64_t d = 0; d < 2; ++d)
+    matrix.append_row(std::vector<std::int64_t>{d, 2 + d}, std::vector<double>{-5, 1});
+  const std::vector<double> b{4, 7, -4, -3}; // of 1, 1, 1, 2
+  for (const bool coarse : {true, false}) {
+    IterativeSettings settings;
+    settings.preconditioner.preconditioner = coarse ? Preconditioner::ilu0_coarse : Preconditioner::ilu0;
+    const auto result = solve_iteratively(matrix, b, settings);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->coarse_left_out, coarse);
+    const double expected[] = {1, 1, 1, 2};
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(result->solution[i], expected[i], 1e-14) << i;
+  }
+}
+
 /// 2 x 2 blocks on the diagonal alone; the second is singular.
 TEST(IterativeSolver, gives_up_what_has_no_pivot) {
   SparseRows matrix(4);

@@ -57,6 +57,8 @@ public:
   void step(double time_step);
 
   double time() const { return time_; }
+  /// How often the slopes of a cell were shrunk beyond what minmod asks, since the state at an end was no gas.
+  std::int64_t n_shrunk_slopes() const { return n_shrunk_slopes_; }
   std::size_t n_unknowns() const { return 3 * mean_.size() * static_cast<std::size_t>(degree_ + 1); }
   const std::vector<double> &centres() const { return centres_; }
   double cell_width() const { return width_; }
@@ -69,7 +71,10 @@ public:
 
   /// Everything that a step reads, by name; who writes into it calls `adopt_state`.
   std::vector<std::pair<std::string, std::span<double>>> state();
-  void adopt_state() { time_ = counters_[0]; }
+  void adopt_state() {
+    time_ = counters_[0];
+    n_shrunk_slopes_ = static_cast<std::int64_t>(counters_[1]);
+  }
 
 private:
   using Cells = std::vector<Conserved>;
@@ -79,7 +84,7 @@ private:
   Conserved hllc(const Conserved &left, const Conserved &right) const;
   bool is_gas(const Conserved &u) const;
   void rates(const Cells &mean, const Cells &slope);
-  void limit(const Cells &mean, Cells &slope) const;
+  void limit(const Cells &mean, Cells &slope);
   void require_gas() const;
   Conserved outside(const Conserved &inside, Boundary boundary) const;
 
@@ -88,7 +93,8 @@ private:
   double width_;
   std::array<Boundary, 2> boundaries_;
   double time_ = 0;
-  std::array<double, 1> counters_{};
+  std::int64_t n_shrunk_slopes_ = 0;
+  std::array<double, 2> counters_{};
   std::vector<double> ends_, centres_;
   std::vector<std::array<double, 2>> inverse_mass_; ///< of the constant and the linear function, 1 / m
   // Of the linear function: at the cell's ends, at its Gauss points, and phi,x JxW there.

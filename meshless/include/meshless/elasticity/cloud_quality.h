@@ -24,6 +24,8 @@ struct CloudQuality {
   double smallest_pivot_ratio = 1;
   std::size_t worst = 0; ///< particle
   Point2 worst_point{};
+  /// Of those moment matrices: not positive definite, and factorised with complete pivoting.
+  std::size_t n_indefinite = 0;
 };
 
 /// @param reach radius of the subdomains in units of h; 0: only the particles themselves are looked at

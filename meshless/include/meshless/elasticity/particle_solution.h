@@ -74,8 +74,10 @@ public:
   double algebraic_error = 0; ///< of the coefficients, relative: SystemSolution::algebraic_error
   double reciprocal_condition = 0;
   linear_algebra::SolverChoice solver;
-  int iterations = 0;     ///< of the linear solver; 0: sparse LU
-  bool fell_back = false; ///< to sparse LU
+  int iterations = 0;           ///< of the linear solver; 0: sparse LU
+  bool fell_back = false;       ///< to sparse LU
+  int n_restarts = 0;           ///< of the iteration: SystemSolution::n_restarts
+  bool coarse_left_out = false; ///< of its preconditioner: SystemSolution::coarse_left_out
 
 private:
   using Visitor = std::function<void(const basis::GroupedEvaluation<2>::Group &, std::size_t region,

@@ -62,6 +62,8 @@ public:
 
   /// Least over largest pivot of the incomplete factor U: as rough as what sparse LU tells.
   double reciprocal_condition() const;
+  /// A coarse system was asked for and is singular: the factors stand alone.
+  bool coarse_left_out() const;
   /// Of the factors and the coarse system.
   std::size_t bytes() const;
 
@@ -81,6 +83,8 @@ struct IterativeResult {
   int iterations = 0;
   double algebraic_error = 0; ///< KrylovResult::algebraic_error
   double reciprocal_condition = 0;
+  int n_restarts = 0;           ///< KrylovResult::n_restarts
+  bool coarse_left_out = false; ///< PreconditionedSystem::coarse_left_out
 };
 
 /// Solves A x = b, with two unknowns a particle.

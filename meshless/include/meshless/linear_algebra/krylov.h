@@ -39,6 +39,8 @@ struct KrylovResult {
   std::vector<double> solution; ///< the best there was
   bool converged = false;
   int iterations = 0;
+  /// Starts anew from the true residual, since the backward error of the solution was not yet the wanted one.
+  int n_restarts = 0;
   double backward_error = 0; ///< of the solution, from its true residual
   /// Estimate of the solution's error |x - x*|_2 / |x|_2 by tightening: |x - x'|_2 / |x|_2 times the ratio of both
   /// backward errors, where x' is the last iterate whose backward error was more than a hundred times the wanted one.

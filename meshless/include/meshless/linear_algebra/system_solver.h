@@ -48,8 +48,10 @@ SolverChoice choose(const SolverRequest &request, std::int64_t n_unknowns, std::
 
 struct SystemSolution {
   std::vector<double> solution;
-  int iterations = 0;     ///< 0: by sparse LU
-  bool fell_back = false; ///< to sparse LU, after an iteration that did not converge
+  int iterations = 0;           ///< 0: by sparse LU
+  bool fell_back = false;       ///< to sparse LU, after an iteration that did not converge
+  int n_restarts = 0;           ///< of the iteration: KrylovResult::n_restarts
+  bool coarse_left_out = false; ///< of the preconditioner: PreconditionedSystem::coarse_left_out
   SolverChoice taken;
   double backward_error = 0;       ///< see linear_algebra::backward_error
   double algebraic_error = 0;      ///< an estimate by tightening: KrylovResult::algebraic_error
