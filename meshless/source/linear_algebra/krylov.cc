@@ -66,7 +66,8 @@ KrylovResult solve_krylov(Krylov krylov, const LinearOperator &matrix, double no
     if (!falls)
       break;
   }
-  result.converged = result.backward_error < 100 * tolerance.backward_error;
+  const bool ran_out = result.iterations >= tolerance.max_iterations;
+  result.converged = result.backward_error < (ran_out ? 10 : 100) * tolerance.backward_error;
   matrix(loose, image);
   for (std::size_t i = 0; i < n; ++i)
     residual[i] = right_hand_side[i] - image[i];

@@ -40,6 +40,26 @@ TEST(IterativeSolver, finds_the_known_solution_in_any_numbering) {
   }
 }
 
+/// A cubic patch of 98 unknowns once ended after all iterations with 83 times the wanted error, and passed for solved.
+TEST(IterativeSolver, that_runs_out_of_iterations_has_not_converged) {
+  const auto matrix = wide_rows(40, balanced_centre());
+  const auto expected = wavy(static_cast<std::size_t>(matrix.n_rows()));
+  std::vector<double> b(expected.size());
+  matrix.multiply(expected, b);
+  PreconditionedSystem system(matrix, {.preconditioner = Preconditioner::ilu0});
+  const double wanted = 1e-12;
+  int n_near = 0;
+  for (int most = 1; most <= 100; ++most) {
+    const auto result = system.solve(Krylov::gmres, b, {.backward_error = wanted, .max_iterations = most});
+    const double error = backward_error(matrix, result.solution, b);
+    if (result.iterations < most)
+      break;
+    EXPECT_EQ(result.converged, error < 10 * wanted) << most << " iterations: " << error;
+    n_near += error > 10 * wanted && error < 100 * wanted;
+  }
+  EXPECT_GT(n_near, 0);
+}
+
 TEST(IterativeSolver, no_load_no_solution) {
   const auto matrix = wide_rows(10, 5);
   const std::vector<double> zero(static_cast<std::size_t>(matrix.n_rows()), 0.0);

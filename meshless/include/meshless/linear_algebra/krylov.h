@@ -29,8 +29,8 @@ using LinearOperator = std::function<void(std::span<const double> x, std::span<d
 
 /// When an iteration ends: the same for every method and preconditioner.
 struct KrylovTolerance {
-  /// Wanted |b - A x| / (|A| |x| + |b|) in the maximum norm; what is a hundred times larger is accepted, since rounding
-  /// keeps some systems from more.
+  /// Wanted |b - A x| / (|A| |x| + |b|) in the maximum norm. What is a hundred times larger is accepted, since rounding
+  /// keeps some systems from more; ten times where iterations have run out, which more might have helped.
   double backward_error = 1e-15;
   int max_iterations = 300;
 };
