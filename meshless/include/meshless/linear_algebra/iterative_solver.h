@@ -88,9 +88,8 @@ struct IterativeResult {
 };
 
 /// Solves A x = b, with two unknowns a particle.
-/// @return none if the backward error does not come near enough to the wanted one (KrylovTolerance), or a pivot is
-/// zero:
-///   use sparse LU
+/// @return none if the backward error does not come near enough to the wanted one (KrylovTolerance) or a pivot is zero;
+///   sparse LU is what is left then
 /// @throws std::invalid_argument if A is not square with an even number of rows
 std::optional<IterativeResult> solve_iteratively(const SparseRows &matrix, std::span<const double> right_hand_side,
                                                  const IterativeSettings &settings = {});
