@@ -28,18 +28,18 @@ constexpr std::array<bool, 2> both{true, true};
 } // namespace
 
 Assembler::Assembler(const PlaneProblem &problem, const Surroundings &surroundings,
-                     const cloud::Particles<2> &particles, const basis::ShapeFunctions<2> &basis,
+                     const cloud::CandidateSearch<2> &search, const basis::ShapeFunctions<2> &basis,
                      const Parameters &parameters)
-    : problem_(problem), surroundings_(surroundings), particles_(particles), basis_(basis), parameters_(parameters),
-      interfaces_(problem.regions), search_(particles, basis.support()), foreign_(surroundings.n_regions()) {
-  require_shrinkable(parameters.subdomains, particles);
+    : problem_(problem), surroundings_(surroundings), search_(search), particles_(search.particles()), basis_(basis),
+      parameters_(parameters), interfaces_(problem.regions), foreign_(surroundings.n_regions()) {
+  require_shrinkable(parameters.subdomains, particles_);
   const bool consistent = parameters.integration == IntegrationRule::consistent && parameters.test_function;
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r) {
     regions_.push_back(
         {domain::SubdomainRule(surroundings.boundary(r), parameters.quadrature_points, &surroundings.visibility(r)),
          {},
          {},
-         RegionFilter(surroundings, particles, r)});
+         RegionFilter(surroundings, particles_, r)});
     auto &region = regions_.back();
     if (consistent)
       region.consistent.emplace(surroundings.boundary(r), surroundings.visibility(r), *parameters.test_function,

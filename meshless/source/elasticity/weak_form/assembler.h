@@ -21,7 +21,8 @@ namespace meshless::elasticity::weak_form {
 class Assembler {
 public:
   /// All are kept by reference.
-  Assembler(const PlaneProblem &problem, const Surroundings &surroundings, const cloud::Particles<2> &particles,
+  /// @param search over the particles with the support of the basis; shared by the assemblers of all threads
+  Assembler(const PlaneProblem &problem, const Surroundings &surroundings, const cloud::CandidateSearch<2> &search,
             const basis::ShapeFunctions<2> &basis, const Parameters &parameters);
 
   /// Appends rows 2 I and 2 I + 1.
@@ -93,12 +94,12 @@ private:
 
   const PlaneProblem &problem_;
   const Surroundings &surroundings_;
+  const cloud::CandidateSearch<2> &search_;
   const cloud::Particles<2> &particles_;
   const basis::ShapeFunctions<2> &basis_;
   const Parameters &parameters_;
   Interfaces interfaces_;
   std::vector<RegionRule> regions_;
-  cloud::CandidateSearch<2> search_;
 
   std::shared_ptr<const RepeatedNeighbourhoods> repeated_;
   /// Of particles that others are like.

@@ -20,10 +20,10 @@ namespace {
 
 /// The basis must exist at the particles too, where quadrature points never fall: a support that is too small shows
 /// there first.
-void require_basis_at_particles(const Surroundings &surroundings, const cloud::Particles<2> &particles,
+void require_basis_at_particles(const Surroundings &surroundings, const cloud::CandidateSearch<2> &search,
                                 const basis::ShapeFunctions<2> &basis) {
   constexpr std::size_t chunk = 512;
-  const cloud::CandidateSearch<2> search(particles, basis.support());
+  const cloud::Particles<2> &particles = search.particles();
   for (std::size_t r = 0; r < surroundings.n_regions(); ++r) {
     std::vector<Point2> positions;
     std::vector<std::size_t> numbers;
@@ -59,9 +59,9 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::P
 }
 
 Assembler make_assembler(const PlaneProblem &problem, const Surroundings &surroundings,
-                         const cloud::Particles<2> &particles, const basis::ShapeFunctions<2> &basis,
+                         const cloud::CandidateSearch<2> &search, const basis::ShapeFunctions<2> &basis,
                          const Parameters &parameters, const std::shared_ptr<const RepeatedNeighbourhoods> &repeated) {
-  Assembler assembler(problem, surroundings, particles, basis, parameters);
+  Assembler assembler(problem, surroundings, search, basis, parameters);
   assembler.copy_repeated(repeated);
   return assembler;
 }
@@ -97,13 +97,14 @@ ParticleSolution solve(const PlaneProblem &problem, std::shared_ptr<const cloud:
   linear_algebra::Stopwatch watch;
   const std::size_t n = particles->size();
   const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
+  const cloud::CandidateSearch<2> search(*particles, basis->support());
   std::shared_ptr<const RepeatedNeighbourhoods> repeated;
-  const auto make = [&] { return make_assembler(problem, *surroundings, *particles, *basis, parameters, repeated); };
+  const auto make = [&] { return make_assembler(problem, *surroundings, search, *basis, parameters, repeated); };
   auto assembler = make();
   repeated = assembler.find_repeated();
   assembler.copy_repeated(repeated);
   assembler.seconds.neighbours = watch.lap();
-  require_basis_at_particles(*surroundings, *particles, *basis);
+  require_basis_at_particles(*surroundings, search, *basis);
   assembler.seconds.basis += watch.lap();
 
   auto solved = assemble_and_solve(assembler, make, n, 2, parameters.solver);
@@ -120,12 +121,13 @@ LinearSystem linear_system(const PlaneProblem &problem, const cloud::Particles<2
   problem.check();
   problem.require_inside(particles);
   const Surroundings surroundings(problem.regions);
+  const cloud::CandidateSearch<2> search(particles, basis.support());
   std::shared_ptr<const RepeatedNeighbourhoods> repeated;
-  const auto make = [&] { return make_assembler(problem, surroundings, particles, basis, parameters, repeated); };
+  const auto make = [&] { return make_assembler(problem, surroundings, search, basis, parameters, repeated); };
   auto assembler = make();
   repeated = assembler.find_repeated();
   assembler.copy_repeated(repeated);
-  require_basis_at_particles(surroundings, particles, basis);
+  require_basis_at_particles(surroundings, search, basis);
   return assemble_system(assembler, make, particles.size(), 2);
 }
 
@@ -144,7 +146,8 @@ RowSample sample_rows(const PlaneProblem &problem, const cloud::Particles<2> &pa
   problem.require_inside(particles);
   linear_algebra::Stopwatch watch;
   const Surroundings surroundings(problem.regions);
-  Assembler assembler(problem, surroundings, particles, basis, parameters);
+  const cloud::CandidateSearch<2> search(particles, basis.support());
+  Assembler assembler(problem, surroundings, search, basis, parameters);
   const auto repeated = assembler.find_repeated();
   const double once = watch.lap();
   auto sample = elasticity::sample_rows(assembler, particles.size(), 2, n_sampled);
@@ -169,10 +172,11 @@ EquationsOfMotion equations_of_motion(const PlaneProblem &problem, std::span<con
   linear_algebra::Stopwatch watch;
   const std::size_t n = particles->size();
   const auto surroundings = std::make_shared<const Surroundings>(problem.regions);
-  Assembler assembler(problem, *surroundings, *particles, *basis, parameters);
+  const cloud::CandidateSearch<2> search(*particles, basis->support());
+  Assembler assembler(problem, *surroundings, search, *basis, parameters);
   assembler.set_densities({densities.begin(), densities.end()});
   assembler.seconds.neighbours = watch.lap();
-  require_basis_at_particles(*surroundings, *particles, *basis);
+  require_basis_at_particles(*surroundings, search, *basis);
   assembler.seconds.basis += watch.lap();
   EquationsOfMotion equations{linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
                               linear_algebra::SparseRows(2 * static_cast<std::int64_t>(n)),
