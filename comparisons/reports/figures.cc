@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <map>
 #include <set>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -259,9 +261,16 @@ GnuplotFigure field_figure(const Group &group, const std::vector<LabelTable> &ta
   return figure;
 }
 
-/// Runs gnuplot once over all scripts; 127 if it is not found.
+/// Of the files that gnuplot is writing: one that it is killed in must not pass for a figure.
+constexpr const char *prefix = ".";
+constexpr const char *endings[] = {".svg", ".pdf"};
+
+/// Runs gnuplot once over all scripts, whose files get the prefix; 127 if it is not found.
 int draw(const std::vector<GnuplotFigure> &figures, const fs::path &directory, std::string &complaint) {
-  std::vector<std::string> words{"gnuplot"};
+  for (const GnuplotFigure &figure : figures) // of a run that was killed
+    for (const char *ending : endings)
+      fs::remove(directory / (prefix + figure.name + ending));
+  std::vector<std::string> words{"gnuplot", "-e", fmt::format("prefix = {}", gnuplot_quoted(prefix))};
   for (const GnuplotFigure &figure : figures)
     words.push_back(figure.name + ".gp");
   std::vector<char *> argv;
@@ -273,6 +282,7 @@ int draw(const std::vector<GnuplotFigure> &figures, const fs::path &directory, s
     return -1;
   const pid_t child = fork();
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // does not draw on for a killed program
     dup2(ends[1], STDERR_FILENO);
     dup2(ends[1], STDOUT_FILENO);
     close(ends[0]);
@@ -290,6 +300,30 @@ int draw(const std::vector<GnuplotFigure> &figures, const fs::path &directory, s
   if (child > 0)
     waitpid(child, &status, 0);
   return child > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Takes the prefix off what gnuplot has drawn. It ends at the first script that it cannot follow: of that one nothing
+/// is kept.
+std::vector<fs::path> take_drawn(const std::vector<GnuplotFigure> &figures, const fs::path &directory, bool all) {
+  const auto drawn = [&](const GnuplotFigure &figure, const char *ending) {
+    return directory / (prefix + figure.name + ending);
+  };
+  std::vector<fs::path> files;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const bool whole = all || (i + 1 < figures.size() && fs::exists(drawn(figures[i + 1], ".svg")));
+    for (const char *ending : endings) {
+      const fs::path from = drawn(figures[i], ending);
+      if (!fs::exists(from))
+        continue;
+      if (!whole) {
+        fs::remove(from);
+        continue;
+      }
+      files.push_back(directory / (figures[i].name + ending));
+      fs::rename(from, files.back());
+    }
+  }
+  return files;
 }
 
 } // namespace
@@ -334,10 +368,8 @@ std::vector<fs::path> write_figures(const std::vector<GnuplotFigure> &figures, c
                          " has scripts and data only");
   else if (code != 0)
     complaints.push_back(fmt::format("gnuplot ended with {} in {}: {}", code, directory.string(), said));
-  for (const GnuplotFigure &figure : figures)
-    for (const char *ending : {".svg", ".pdf"})
-      if (const fs::path file = directory / (figure.name + ending); code != 127 && fs::exists(file))
-        files.push_back(file);
+  const auto drawn = take_drawn(figures, directory, code == 0);
+  files.insert(files.end(), drawn.begin(), drawn.end());
   return files;
 }
 

@@ -29,7 +29,8 @@ std::string gnuplot_script(const std::string &name, const std::string &title, co
       "set linetype cycle 8\nset key noenhanced outside right top\nset title {1} noenhanced\nset grid\n"
       "do for [ending in 'svg pdf'] {{\n"
       "if (ending eq 'svg') {{ set terminal svg size 900,560 background 'white' }} else "
-      "{{ set terminal pdfcairo size 9,5.6 }}\nset output '{0}.'.ending\n{2}unset output\n}}\n",
+      "{{ set terminal pdfcairo size 9,5.6 }}\nset output (exists('prefix') ? prefix : '').'{0}.'.ending\n{2}unset "
+      "output\n}}\n",
       name, gnuplot_quoted(title), body);
 }
 

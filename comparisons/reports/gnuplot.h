@@ -9,7 +9,8 @@ namespace comparisons::reports {
 /// Text in single quotes for gnuplot.
 std::string gnuplot_quoted(std::string_view text);
 
-/// A script that draws twice, as SVG and as PDF; `body` has the settings and the plot.
+/// A script that draws twice, as SVG and as PDF; `body` has the settings and the plot. gnuplot's variable `prefix`, if
+/// it is set (gnuplot -e), goes before the names of both files.
 std::string gnuplot_script(const std::string &name, const std::string &title, const std::string &body);
 
 /// A CSV file of numbers with a header.

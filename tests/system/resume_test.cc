@@ -127,6 +127,32 @@ TEST(Resume, PassesOverALineThatAKillCutOff) {
   EXPECT_EQ(ended.err.find(note) != std::string::npos, !kept.cells.empty()) << ended.err;
 }
 
+/// gnuplot's stand-in writes half of a file and kills the program.
+TEST(Resume, AKillWhileFiguresAreDrawnLeavesOnlyWholeFiles) {
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"fem\"\n[study]\nlevels = "
+                             "[\"4x2\", \"8x2\"]\nrepeats = 1\n");
+  fs::create_directory(folder / "stand_in");
+  folder.write("stand_in/gnuplot", "#!/bin/bash\nprefix=${2#*\\'}\nprintf half >\"${prefix%\\'}${3%.gp}.svg\"\n"
+                                   "kill -9 $PPID\n");
+  fs::permissions(folder / "stand_in/gnuplot", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((folder / "stand_in").string() + ":" + path).c_str(), 1);
+  Process process(command({"--format", "json,figures"}), folder.path());
+  const auto ended = process.wait();
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(ended.signal, SIGKILL);
+  std::size_t n_halves = 0;
+  for (const auto &entry : fs::directory_iterator(folder / "out/figures"))
+    n_halves += contents(entry.path()) == "half";
+  EXPECT_EQ(n_halves, 1u);
+  expect_whole_folder(folder / "out");
+  const auto again = run_program(command({"--format", "json,figures"}), folder.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  for (const auto &entry : fs::directory_iterator(folder / "out/figures"))
+    EXPECT_NE(contents(entry.path()), "half") << entry.path();
+}
+
 // tests/system/kill_twenty_times.sh does it with all benchmarks.
 TEST(Resume, KillsAtRandomMomentsLeaveOnlyWholeFilesAndARunThatCompletes) {
   const Folder folder;
