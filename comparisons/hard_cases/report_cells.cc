@@ -8,20 +8,7 @@ namespace comparisons::hard_cases {
 
 namespace {
 
-/// Of a cell that has all but its verdict.
-void set_verdict(reports::Cell &cell) {
-  auto verdict = CellVerdict::degrades;
-  if (cell.status == reports::Status::failed)
-    verdict = CellVerdict::fails;
-  else if (cell.status == reports::Status::refused)
-    verdict = CellVerdict::refused;
-  else if (cell.errors.at("error_of_case") <= cell.parameters.at("threshold").get<double>())
-    verdict = CellVerdict::holds;
-  cell.parameters["verdict"] = to_text(verdict);
-}
-
-} // namespace
-
+/// A method's part in a case before it is run.
 reports::Cell described_cell(const HardCase &hard_case, const std::string &method) {
   reports::Cell cell;
   cell.benchmark = benchmark_name;
@@ -36,9 +23,9 @@ reports::Cell described_cell(const HardCase &hard_case, const std::string &metho
   return cell;
 }
 
+/// All but the verdict.
 reports::Cell report_cell(const HardCase &hard_case, const MatrixCell &from) {
   auto cell = described_cell(hard_case, from.method);
-  cell.parameters["verdict"] = to_text(from.verdict);
   const bool fails = from.verdict == CellVerdict::fails;
   cell.status = fails                                  ? reports::Status::failed
                 : from.verdict == CellVerdict::refused ? reports::Status::refused
@@ -58,24 +45,33 @@ reports::Cell report_cell(const HardCase &hard_case, const MatrixCell &from) {
   return cell;
 }
 
+/// From status, error and threshold, as `judge` has it.
+void add_verdict(reports::Cell &cell) {
+  auto verdict = CellVerdict::degrades;
+  if (cell.status == reports::Status::failed)
+    verdict = CellVerdict::fails;
+  else if (cell.status == reports::Status::refused)
+    verdict = CellVerdict::refused;
+  else if (cell.errors.at("error_of_case") <= cell.parameters.at("threshold").get<double>())
+    verdict = CellVerdict::holds;
+  cell.parameters["verdict"] = to_text(verdict);
+}
+
+} // namespace
+
 std::vector<reports::Cell> run_reported_matrix(const std::vector<HardCase> &cases, const MatrixOptions &options,
                                                study::CellJournal &journal, const std::string &identity) {
   std::vector<reports::Cell> cells;
   for (const auto &hard_case : cases)
     for (const auto &method : hard_case.methods) {
-      const auto described = described_cell(hard_case, method);
-      if (auto kept = journal.recall(identity, described)) {
-        set_verdict(kept->cell);
+      if (auto kept = journal.recall(identity, described_cell(hard_case, method)))
         cells.push_back(std::move(kept->cell));
-        continue;
-      }
-      const auto run = run_cell(hard_case, method, options);
-      if (!run)
+      else if (const auto run = run_cell(hard_case, method, options)) {
+        cells.push_back(report_cell(hard_case, *run));
+        journal.keep(identity, {cells.back(), {}, true});
+      } else
         return cells;
-      auto cell = report_cell(hard_case, *run);
-      cells.push_back(cell);
-      cell.parameters = described.parameters; // by which it will be looked for
-      journal.keep(identity, {std::move(cell), {}, true});
+      add_verdict(cells.back()); // not before: a kept cell is looked for by what is known beforehand
     }
   return cells;
 }

@@ -16,8 +16,8 @@ inline bool has_subdomains(Form form) { return form != Form::strong; }
 /// Needs second derivatives of the shape functions at any point.
 inline bool collocates(Form form) { return form == Form::strong || form == Form::hybrid || form == Form::mixed; }
 
-/// The least order of a form: what collocates second derivatives needs 2, the pressure of the mixed one is of order
-/// - 1.
+/// The least order of a form: 2 where second derivatives are collocated, as the mixed form does, whose pressure has one
+/// order less.
 inline int least_order(Form form) { return collocates(form) ? 2 : 1; }
 
 /// The keys of a method in a scene.

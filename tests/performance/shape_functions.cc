@@ -1,15 +1,17 @@
 // SSPH shape functions per point: batches of 64 points in one local subdomain, as the weak form asks
-// for them, and arbitrary points through GroupedEvaluation.
+// for them, arbitrary points through GroupedEvaluation, and a plain program to compare with.
 
 #include "meshless/basis/grouped_evaluation.h"
 #include "meshless/basis/ssph.h"
 #include "unit/cloud/sample_clouds.h"
 
+#include <Eigen/Dense>
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace {
 
@@ -181,6 +183,63 @@ void all_derivatives_shared(benchmark::State &state, const kernels::Kernel &kern
   state.counters["neighbours"] = static_cast<double>(workspace.active.size());
 }
 
+template <int dim>
+constexpr int n_monomials = (dim + 1) * (dim + 2) / 2;
+
+template <int dim>
+using Monomials = Eigen::Matrix<double, n_monomials<dim>, 1>;
+
+/// 1, the offsets and their products, over h, with the factors of Taylor's series.
+template <int dim>
+Monomials<dim> monomials(const cloud::Point<dim> &offset, double h) {
+  Monomials<dim> p;
+  p[0] = 1;
+  int next = 1 + dim;
+  for (int k = 0; k < dim; ++k) {
+    p[1 + k] = offset[k] / h;
+    for (int l = k; l < dim; ++l)
+      p[next++] = offset[k] * offset[l] / (h * h * (k == l ? 2 : 1));
+  }
+  return p;
+}
+
+/// What a short program on Eigen takes for the same, one point after the other; neighbours are known.
+template <int dim>
+void plain(benchmark::State &state, const kernels::Kernel &kernel) {
+  const int side = dim == 2 ? 31 : 15;
+  const double h = smoothing_length<dim>(kernel);
+  const auto particles = unit_spacing<dim>(h, side);
+  const cloud::CandidateSearch<dim> search(particles, kernels::support_of(kernel));
+  const auto points = points_inside<dim>(side);
+  std::vector<std::vector<cloud::Index>> lists(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    search.collect(points[i], 0, lists[i]);
+  Eigen::Matrix<double, n_monomials<dim>, Eigen::Dynamic> p, shape;
+  std::visit(
+      [&](const auto &w) { // chosen once
+        for (auto _ : state)
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            const auto size = static_cast<Eigen::Index>(lists[i].size());
+            p.resize(n_monomials<dim>, size);
+            Eigen::VectorXd weight(size);
+            for (Eigen::Index j = 0; j < size; ++j) {
+              const auto &x = particles.position(static_cast<std::size_t>(lists[i][static_cast<std::size_t>(j)]));
+              cloud::Point<dim> offset;
+              for (int k = 0; k < dim; ++k)
+                offset[k] = x[k] - points[i][k];
+              p.col(j) = monomials<dim>(offset, h);
+              weight[j] = w.value(cloud::distance_squared<dim>(x, points[i]) / (h * h));
+            }
+            const Eigen::Matrix<double, n_monomials<dim>, n_monomials<dim>> moments =
+                p * weight.asDiagonal() * p.transpose();
+            shape = moments.ldlt().solve(p * weight.asDiagonal());
+            benchmark::DoNotOptimize(shape.data());
+          }
+      },
+      kernel);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+
 constexpr basis::Wanted value{.value = true};
 constexpr basis::Wanted weak1{.gradient = true};
 constexpr basis::Wanted weak2{.differentiated_gradient = true};
@@ -196,12 +255,18 @@ BENCHMARK_CAPTURE(batch_2d, weak2, weak2)->DenseRange(1, 4)->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(batch_2d, strong, strong)->DenseRange(2, 4)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(batch_1d, weak1, weak1)->Arg(2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(batch_3d, weak1, weak1)->DenseRange(1, 3)->Unit(benchmark::kMicrosecond);
+constexpr auto *plain_2d = &plain<2>;
+constexpr auto *plain_3d = &plain<3>;
 constexpr auto *all_2d = &all_derivatives<2>;
 constexpr auto *all_3d = &all_derivatives<3>;
 constexpr auto *all_at_2d = &all_derivatives_at<2>;
 constexpr auto *all_at_3d = &all_derivatives_at<3>;
 constexpr auto *all_shared_2d = &all_derivatives_shared<2>;
 constexpr auto *all_shared_3d = &all_derivatives_shared<3>;
+BENCHMARK_CAPTURE(plain_2d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(plain_2d, gauss, kernels::Gauss(3));
+BENCHMARK_CAPTURE(plain_3d, polynomial, kernels::Quartic());
+BENCHMARK_CAPTURE(plain_3d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_at_2d, polynomial, kernels::Quartic());
 BENCHMARK_CAPTURE(all_at_2d, gauss, kernels::Gauss(3));
 BENCHMARK_CAPTURE(all_at_3d, polynomial, kernels::Quartic());

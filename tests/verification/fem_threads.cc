@@ -7,10 +7,9 @@
 #include "fem_reference/source/elasticity/stiffness.h"
 #include "fem_reference/threads.h"
 #include "fem_support.h"
+#include "unit/parallel/other_threads.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <random>
 #include <thread>
 
@@ -167,23 +166,17 @@ TEST(FemThreads, several_take_part) {
     GTEST_SKIP() << "one core";
   auto problem = loaded_plate(two_regions(40, 40, false));
   const auto force = problem.body_force;
-  std::atomic<int> others{0};
-  bool wait = false;
-  const auto here = std::this_thread::get_id();
+  OtherThreads others;
   problem.body_force = [&](std::span<const Point> points, std::span<Vector> values) {
-    if (std::this_thread::get_id() != here)
-      ++others;
-    else // on a busy machine the second thread may come late
-      for (int ms = 0; wait && others == 0 && ms < 20'000; ++ms)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    others.take_part();
     force(points, values);
   };
   solve(problem);
-  EXPECT_EQ(others, 0);
+  EXPECT_EQ(others.n(), 0);
   const Threads threads(2);
-  wait = true;
+  others.await();
   solve(problem);
-  EXPECT_GT(others, 0);
+  EXPECT_GT(others.n(), 0);
 }
 
 /// A call's message with one thread, and as often as chance may have it with four.

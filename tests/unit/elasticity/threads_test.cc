@@ -4,14 +4,12 @@
 #include "concave_samples.h"
 #include "mixed_samples.h"
 
-#include "unit/linear_algebra/refusal.h"
-
 #include "meshless/parallel/threads.h"
+#include "unit/linear_algebra/refusal.h"
+#include "unit/parallel/other_threads.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <chrono>
 #include <thread>
 
 namespace {
@@ -62,24 +60,18 @@ TEST(Threads, several_take_part) {
     GTEST_SKIP() << "one core";
   auto problem = problem_on({{quarter_plate(), steel}}, quadratic_displacement(steel), {0, 3});
   const auto force = problem.body_force;
-  std::atomic<int> others{0};
-  bool wait = false;
-  const auto here = std::this_thread::get_id();
+  OtherThreads others;
   problem.body_force = [&](std::span<const Point2> points, std::span<Vector2> values) {
-    if (std::this_thread::get_id() != here)
-      ++others;
-    else // on a busy machine the second thread may come late
-      for (int ms = 0; wait && others == 0 && ms < 20'000; ++ms)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    others.take_part();
     force(points, values);
   };
   const auto particles = quarter_plate_cloud(21, .2, 3);
   solve(WeakForm::weak1, problem, particles, 2);
-  EXPECT_EQ(others, 0);
+  EXPECT_EQ(others.n(), 0);
   const Threads threads(2);
-  wait = true;
+  others.await();
   solve(WeakForm::weak1, problem, particles, 2);
-  EXPECT_GT(others, 0);
+  EXPECT_GT(others.n(), 0);
 }
 
 /// The first particle that cannot be served is named, whichever thread meets it.

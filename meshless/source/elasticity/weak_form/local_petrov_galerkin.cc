@@ -39,7 +39,6 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::C
               std::span(positions).subspan(begin, end - begin), {}, [](const auto &) {}, "particle",
               std::span(numbers).subspan(begin, end - begin));
     };
-    bool regular = false;
     if (parallel::threads() > 1)
       try {
         struct Nothing {};
@@ -50,11 +49,10 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::C
               return Nothing();
             },
             [](const Nothing &) {});
-        regular = true;
+        continue;
       } catch (const basis::SingularMomentMatrix &) { // all together below: the message is that of one thread
       }
-    if (!regular)
-      visit(0, positions.size());
+    visit(0, positions.size());
   }
 }
 
