@@ -1,4 +1,4 @@
-// Neighbour search on jittered grids: cell list, k-d tree, and the candidates of one local subdomain.
+// Neighbour search on jittered grids: cell lists, k-d tree, and the candidates of one local subdomain.
 
 #include "meshless/cloud/candidate_search.h"
 #include "meshless/cloud/cell_list.h"
@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -116,6 +117,53 @@ void candidates(benchmark::State &state, bool varying) {
   count(state, points.size());
 }
 
+/// Particles around a point, graded over a factor of a thousand: n rings of n.
+Particles<2> rings(std::int64_t n) {
+  std::vector<Point<2>> points;
+  std::vector<double> h;
+  const double angle = 2 * std::numbers::pi / static_cast<double>(n);
+  for (std::int64_t i = 0; i < n; ++i)
+    for (std::int64_t j = 0; j < n; ++j) {
+      const double r = std::pow(1e3, static_cast<double>(i) / static_cast<double>(n - 1));
+      points.push_back({r * std::cos(angle * static_cast<double>(j)), r * std::sin(angle * static_cast<double>(j))});
+      h.push_back(angle * r);
+    }
+  return {std::move(points), std::move(h)};
+}
+
+void graded_candidates(benchmark::State &state) {
+  const auto particles = rings(state.range(0));
+  const CandidateSearch<2> search(particles, support);
+  std::vector<Index> found;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      search.collect(particles.position(i), particles.smoothing_length(i), found);
+      benchmark::DoNotOptimize(found.data());
+    }
+  count(state, particles.size());
+}
+
+/// What one search for all sizes costs: it has to look as far as the largest support reaches.
+void graded_candidates_by_tree(benchmark::State &state) {
+  const auto particles = rings(state.range(0));
+  const PointTree<2> tree(particles.positions());
+  std::vector<Index> found;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Point<2> x = particles.position(i);
+      const double h = particles.smoothing_length(i);
+      found.clear();
+      tree.append_within(x, support * particles.largest_smoothing_length() + h, found);
+      std::erase_if(found, [&](Index j) {
+        const double own = support * particles.smoothing_length(static_cast<std::size_t>(j)) + h;
+        return distance_squared<2>(particles.position(static_cast<std::size_t>(j)), x) >= own * own;
+      });
+      std::sort(found.begin(), found.end());
+      benchmark::DoNotOptimize(found.data());
+    }
+  count(state, particles.size());
+}
+
 BENCHMARK(million_random<2>)->Unit(benchmark::kMillisecond);
 BENCHMARK(million_random<3>)->Unit(benchmark::kMillisecond);
 BENCHMARK(build_cell_list<2>)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);
@@ -126,5 +174,7 @@ BENCHMARK(all_neighbours_by_tree<2>)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(all_neighbours_by_tree<3>)->Arg(30)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(candidates, equal_lengths, false)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(candidates, varying_lengths, true)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(graded_candidates)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(graded_candidates_by_tree)->Arg(100)->Unit(benchmark::kMillisecond);
 
 } // namespace

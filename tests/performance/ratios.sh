@@ -23,6 +23,7 @@ shape functions 3D, Gauss kernel|plain_3d/gauss|all_at_3d/gauss
 neighbour lists 2D: cells against a tree|all_neighbours_by_tree<2>/100|all_neighbours<2>/100
 neighbour lists 3D|all_neighbours_by_tree<3>/30|all_neighbours<3>/30
 candidates: equal smoothing lengths against varying ones|candidates/varying_lengths/100|candidates/equal_lengths/100
+candidates, particles graded over a factor of 1000: cells by size against a tree|graded_candidates_by_tree/100|graded_candidates/100
 weak1, 91 x 19: rows that repeat copied against all computed|cantilever/weak1/91/19|cantilever/weak1_copied/91/19
 weak1, 91 x 19: consistent rule against 10 x 40 points|cantilever/weak1/91/19|cantilever/weak1_consistent/91/19
 weak1 against weak2, 91 x 19|cantilever/weak2/91/19|cantilever/weak1/91/19

@@ -14,6 +14,7 @@ namespace {
 
 using linear_algebra::Pack;
 constexpr std::size_t n_lanes = linear_algebra::n_lanes;
+constexpr std::size_t slack = 128; // room in a row for further runs, in particles
 
 /// Calls f(row begin, row end) for the cells in the box [low, high], a contiguous run along the
 /// last axis at a time.
@@ -140,7 +141,7 @@ std::size_t CellList<dim>::find_within(const Point<dim> &centre, double radius, 
   visit_runs(centre, radius, [&](std::size_t begin, std::size_t end) {
     const std::size_t needed = n + (end - begin) + n_lanes;
     if (row.size() < needed)
-      row.resize(2 * needed);
+      row.resize(needed + slack); // not twice as much: rows may be appended to many others
     n = static_cast<std::size_t>(write_within(begin, end, centre, radius * radius, row.data() + n) - row.data());
   });
   return n;

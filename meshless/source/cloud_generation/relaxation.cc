@@ -2,14 +2,22 @@
 
 #include "wall.h"
 
-#include "meshless/cloud/point_tree.h"
+#include "meshless/cloud/levelled_cells.h"
+#include "meshless/cloud/radix_sort.h"
+#include "meshless/linear_algebra/pack.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meshless::cloud_generation {
 
 namespace {
+
+using linear_algebra::gather;
+using linear_algebra::load;
+using linear_algebra::n_lanes;
+using linear_algebra::Pack;
 
 /// Particles farther apart than this, in units of the spacing, do not see each other.
 constexpr double reach = 1.7;
@@ -70,29 +78,49 @@ private:
     auto inside = spacing_.at(std::span(positions_).subspan(n_fixed_));
     for (std::size_t i = 0; i < inside.size(); ++i)
       s_[n_fixed_ + i] = scale_ * inside[i];
-    const cloud::PointTree<2> tree(positions_);
+    const cloud::LevelledCells<2> cells(positions_, s_, (reach + margin) / 2);
     offsets_.assign(1, 0);
     neighbours_.clear();
     weights_.clear();
     near_boundary_.assign(interior_.size(), false);
     std::vector<std::size_t> pieces;
+    std::vector<cloud::Index> found;
     for (std::size_t i = 0; i < interior_.size(); ++i) {
       const std::size_t a = n_fixed_ + i;
-      const auto first = static_cast<std::ptrdiff_t>(neighbours_.size());
-      tree.append_within(positions_[a], (reach + margin) * s_[a], neighbours_);
-      std::sort(neighbours_.begin() + first, neighbours_.end());
-      neighbours_.erase(std::remove_if(neighbours_.begin() + first, neighbours_.end(),
-                                       [&](cloud::Index j) {
-                                         const auto b = static_cast<std::size_t>(j);
-                                         return b == a ||
-                                                (b < n_fixed_ && wall_.hides(b, positions_[b], positions_[a]));
-                                       }),
-                        neighbours_.end());
+      found.clear();
+      cells.append_within(positions_[a], (reach + margin) * s_[a], 0, found);
+      cloud::sort_indices(found, found.size());
+      std::copy_if(found.begin(), found.end(), std::back_inserter(neighbours_), [&](cloud::Index j) {
+        const auto b = static_cast<std::size_t>(j);
+        return b != a && (b >= n_fixed_ || !wall_.hides(b, positions_[b], positions_[a]));
+      });
       offsets_.push_back(neighbours_.size());
       for (std::size_t k = weights_.size(); k < neighbours_.size(); ++k)
         weights_.push_back(2 / (s_[a] + s_[static_cast<std::size_t>(neighbours_[k])]));
       region_.pieces_within(positions_[a], (clearance + 4 * longest_step) * s_[a], pieces);
       near_boundary_[i] = !pieces.empty();
+    }
+    interleave();
+  }
+
+  /// The lists of as many particles as there are lanes, turn by turn; the shorter ones end with the particle itself,
+  /// which does not repel.
+  void interleave() {
+    group_offsets_.assign(1, 0);
+    partners_.clear();
+    partner_weights_.clear();
+    for (std::size_t first = 0; first < interior_.size(); first += n_lanes) {
+      std::size_t longest = 0;
+      for (std::size_t i = first; i < std::min(first + n_lanes, interior_.size()); ++i)
+        longest = std::max(longest, offsets_[i + 1] - offsets_[i]);
+      for (std::size_t k = 0; k < longest; ++k)
+        for (std::size_t i = first; i < first + n_lanes; ++i) {
+          const bool any = i < interior_.size() && offsets_[i] + k < offsets_[i + 1];
+          const std::size_t itself = n_fixed_ + std::min(i, interior_.size() - 1);
+          partners_.push_back(any ? neighbours_[offsets_[i] + k] : static_cast<cloud::Index>(itself));
+          partner_weights_.push_back(any ? weights_[offsets_[i] + k] : 0);
+        }
+      group_offsets_.push_back(partners_.size());
     }
   }
 
@@ -172,30 +200,8 @@ private:
   /// One step of gradient descent with momentum; the repulsion at the distance q, in units of the spacing, is
   /// (1 - q / reach)^2 / (q + .05).
   void advance(double momentum) {
-    for (std::size_t i = 0; i < interior_.size(); ++i) {
-      const std::size_t a = n_fixed_ + i;
-      const Point2 &x = positions_[a];
-      Point2 force{};
-      for (std::size_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
-        const auto b = static_cast<std::size_t>(neighbours_[k]);
-        const double dx = x[0] - positions_[b][0];
-        const double dy = x[1] - positions_[b][1];
-        const double d = std::sqrt(dx * dx + dy * dy);
-        const double t = 1 - d * weights_[k] * (1 / reach);
-        if (t <= 0 || d == 0)
-          continue;
-        const double f = t * t / ((d * weights_[k] + 0.05) * d);
-        force[0] += f * dx;
-        force[1] += f * dy;
-      }
-      // In units of the spacing.
-      Point2 v{momentum * velocity_[i][0] + step_size * force[0], momentum * velocity_[i][1] + step_size * force[1]};
-      const double length = std::sqrt(v[0] * v[0] + v[1] * v[1]);
-      if (length > longest_step)
-        v = {v[0] * longest_step / length, v[1] * longest_step / length};
-      velocity_[i] = v;
-      moved_[i] = {x[0] + s_[a] * v[0], x[1] + s_[a] * v[1]};
-    }
+    for (std::size_t group = 0; group + 1 < group_offsets_.size(); ++group)
+      propose(group, momentum);
     for (std::size_t i = 0; i < interior_.size(); ++i) {
       const std::size_t a = n_fixed_ + i;
       if (!near_boundary_[i] || keep_inside(moved_[i], s_[a])) {
@@ -207,6 +213,42 @@ private:
       moved_[i] = positions_[a];
       if (keep_inside(moved_[i], s_[a]))
         positions_[a] = moved_[i];
+    }
+  }
+
+  /// Where the particles of a group, a lane each, would go. Every lane adds up in the order of its own list, so that
+  /// the cloud is the same for every number of lanes.
+  void propose(std::size_t group, double momentum) {
+    const std::size_t first = group * n_lanes;
+    const auto place = [&](auto lane) { return n_fixed_ + std::min(first + lane, interior_.size() - 1); };
+    const Pack x([&](auto lane) { return positions_[place(lane)][0]; });
+    const Pack y([&](auto lane) { return positions_[place(lane)][1]; });
+    const double *positions = positions_.front().data();
+    Pack force_x = 0;
+    Pack force_y = 0;
+    for (std::size_t k = group_offsets_[group]; k < group_offsets_[group + 1]; k += n_lanes) {
+      const Pack dx = x - gather<2>(positions, partners_.data() + k);
+      const Pack dy = y - gather<2>(positions + 1, partners_.data() + k);
+      const Pack weight = load(partner_weights_.data() + k);
+      Pack d = sqrt(dx * dx + dy * dy);
+      const Pack t = 1 - d * weight * (1 / reach);
+      const auto apart = t <= 0 || d == 0;
+      where(d == 0, d) = 1;
+      Pack f = t * t / ((d * weight + 0.05) * d);
+      where(apart, f) = 0;
+      force_x += f * dx;
+      force_y += f * dy;
+    }
+    for (std::size_t i = first; i < std::min(first + n_lanes, interior_.size()); ++i) {
+      const std::size_t a = n_fixed_ + i;
+      // In units of the spacing.
+      Point2 v{momentum * velocity_[i][0] + step_size * force_x[i - first],
+               momentum * velocity_[i][1] + step_size * force_y[i - first]};
+      const double length = std::sqrt(v[0] * v[0] + v[1] * v[1]);
+      if (length > longest_step)
+        v = {v[0] * longest_step / length, v[1] * longest_step / length};
+      velocity_[i] = v;
+      moved_[i] = {positions_[a][0] + s_[a] * v[0], positions_[a][1] + s_[a] * v[1]};
     }
   }
 
@@ -258,6 +300,10 @@ private:
   std::vector<std::size_t> offsets_;
   std::vector<cloud::Index> neighbours_;
   std::vector<double> weights_; ///< one over the mean spacing of the two
+  /// The same for packs of particles: a partner of each lane after the other.
+  std::vector<std::size_t> group_offsets_;
+  std::vector<cloud::Index> partners_;
+  std::vector<double> partner_weights_;
   std::vector<std::size_t> pieces_;
 };
 

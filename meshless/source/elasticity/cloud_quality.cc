@@ -3,6 +3,7 @@
 #include "meshless/cloud/candidate_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,16 @@
 namespace meshless::elasticity {
 
 namespace {
+
+/// Sixteen on the unit circle.
+const std::array<Point2, 16> directions = [] {
+  std::array<Point2, 16> result;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const double angle = std::numbers::pi / 8 * static_cast<double>(k);
+    result[k] = {std::cos(angle), std::sin(angle)};
+  }
+  return result;
+}();
 
 /// Looks at the moment matrices of one particle after the other.
 class Probe {
@@ -28,13 +39,8 @@ public:
     const Point2 &x = particles_.position(particle);
     const double radius = reach_ * particles_.smoothing_length(particle);
     points_.assign(1, x);
-    for (int k = 0; k < 16 && radius > 0; ++k) {
-      const double angle = std::numbers::pi / 8 * k; // the two rings interlaced
-      const double r = k % 2 == 0 ? radius : 0.5 * radius;
-      const Point2 point{x[0] + r * std::cos(angle), x[1] + r * std::sin(angle)};
-      if (surroundings_.boundary(region).contains(point))
-        points_.push_back(point);
-    }
+    if (radius > 0)
+      add_rings(surroundings_.boundary(region), x, radius);
     search_.collect(x, radius, candidates_);
     if (!surroundings_.simple())
       filters_[region].apply(x, candidates_);
@@ -47,6 +53,20 @@ public:
   std::span<const cloud::Index> candidates() const { return candidates_; }
 
 private:
+  /// Two rings, interlaced; of their points those inside.
+  void add_rings(const domain::Boundary &boundary, const Point2 &x, double radius) {
+    boundary.pieces_within(x, radius, pieces_);
+    const bool beside_boundary = !pieces_.empty();
+    if (!beside_boundary && !boundary.contains(x))
+      return;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const double r = k % 2 == 0 ? radius : 0.5 * radius;
+      const Point2 point{x[0] + r * directions[k][0], x[1] + r * directions[k][1]};
+      if (!beside_boundary || boundary.contains(point))
+        points_.push_back(point);
+    }
+  }
+
   const Surroundings &surroundings_;
   const cloud::Particles<2> &particles_;
   const basis::ShapeFunctions<2> &basis_;
@@ -54,6 +74,7 @@ private:
   double reach_;
   std::vector<RegionFilter> filters_;
   std::vector<Point2> points_;
+  std::vector<std::size_t> pieces_;
   std::vector<cloud::Index> candidates_;
   basis::PointBatch<2> batch_;
   basis::CandidateBatch<2> candidate_batch_;

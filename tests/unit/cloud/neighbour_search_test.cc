@@ -1,9 +1,10 @@
-// Cell list, k-d tree and candidate search against a search through all pairs.
+// Cell lists, k-d tree and candidate search against a search through all pairs.
 
 #include "sample_clouds.h"
 
 #include "meshless/cloud/candidate_search.h"
 #include "meshless/cloud/cell_list.h"
+#include "meshless/cloud/levelled_cells.h"
 #include "meshless/cloud/neighbour_collector.h"
 #include "meshless/cloud/point_tree.h"
 
@@ -183,8 +184,11 @@ TYPED_TEST(NeighbourSearch, candidates_are_the_particles_whose_support_reaches_t
   std::vector<double> varying(points.size());
   for (double &h : varying)
     h = random.between(.01, .1);
+  std::vector<double> graded(points.size()); // on twenty levels
+  for (double &h : graded)
+    h = std::pow(10., random.between(-7, -1));
   const std::vector<double> uniform(points.size(), .05);
-  for (const auto &lengths : {uniform, varying}) {
+  for (const auto &lengths : {uniform, varying, graded}) {
     const Particles<dim> particles(points, lengths);
     const double support = 3;
     const CandidateSearch<dim> search(particles, support);
@@ -235,6 +239,45 @@ TYPED_TEST(NeighbourSearch, neighbours_are_the_particles_whose_support_holds_the
       }
     }
   }
+}
+
+TYPED_TEST(NeighbourSearch, levels_hold_sizes_within_a_factor_of_two_and_find_what_all_pairs_give) {
+  constexpr int dim = TypeParam::value;
+  const auto points = random_points<dim>(300, this->filled(0), this->filled(1), 15);
+  sample_clouds::Uniform random(16);
+  std::vector<double> sizes(points.size());
+  for (double &size : sizes)
+    size = std::pow(2., random.between(-8, -1));
+  const LevelledCells<dim> cells(points, sizes, 1);
+  EXPECT_GE(cells.n_levels(), 7u);
+  EXPECT_LE(cells.n_levels(), 8u);
+  EXPECT_EQ(LevelledCells<dim>(points, std::vector<double>(points.size(), .1), 1).n_levels(), 1u);
+  for (const auto &centre : this->probes())
+    for (const double radius : {.01, .1, .5}) {
+      std::vector<Index> found{42}; // stays
+      cells.append_within(centre, radius, 0, found);
+      EXPECT_EQ(found.front(), 42);
+      std::sort(found.begin() + 1, found.end());
+      ASSERT_EQ(std::vector<Index>(found.begin() + 1, found.end()), this->brute_force(points, centre, radius));
+      // With the size of the particle itself, rounded up to that of its level.
+      found.clear();
+      cells.append_within(centre, radius, 2, found);
+      std::sort(found.begin(), found.end());
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const double d = std::sqrt(distance_squared<dim>(points[j], centre));
+        const bool in = std::binary_search(found.begin(), found.end(), static_cast<Index>(j));
+        ASSERT_TRUE(in || d >= radius + 2 * sizes[j]) << j;
+        ASSERT_TRUE(!in || d <= radius + 4 * sizes[j]) << j;
+      }
+    }
+}
+
+TEST(LevelledCells, refuse_what_cannot_be_searched) {
+  const std::vector<Point<2>> two{{0, 0}, {1, 0}};
+  EXPECT_THROW(LevelledCells<2>(two, std::vector<double>{1}, 1), std::invalid_argument);
+  EXPECT_THROW(LevelledCells<2>({}, {}, 1), std::invalid_argument);
+  for (const double size : {0., -1., std::nan("")})
+    EXPECT_THROW(LevelledCells<2>(two, std::vector<double>{size, 1}, 1), std::invalid_argument);
 }
 
 TEST(CellList, refuses_what_cannot_be_searched) {

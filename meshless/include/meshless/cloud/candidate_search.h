@@ -1,16 +1,14 @@
 #pragma once
 
-#include "meshless/cloud/cell_list.h"
-#include "meshless/cloud/point_tree.h"
+#include "meshless/cloud/levelled_cells.h"
+#include "meshless/cloud/particles.h"
 
-#include <optional>
+#include <vector>
 
 namespace meshless::cloud {
 
 /// Finds the particles whose support reaches into a ball: the candidates that all points of the
 /// ball share. The support of particle j is the ball of radius `support` h_j around it.
-///
-/// Smoothing lengths within a factor of two use a cell list, others a k-d tree.
 template <int dim>
 class CandidateSearch {
 public:
@@ -27,8 +25,7 @@ public:
 private:
   const Particles<dim> *particles_;
   double support_;
-  std::optional<CellList<dim>> cells_;
-  std::optional<PointTree<dim>> tree_;
+  LevelledCells<dim> cells_;
 };
 
 } // namespace meshless::cloud
