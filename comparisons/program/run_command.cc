@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace comparisons::program {
@@ -236,12 +237,25 @@ int execute(const Plan &plan, const CommonOptions &options, const study::Catalog
 
 } // namespace
 
+namespace {
+
+/// As TOML reads it.
+std::string quoted(const char *option, const nlohmann::json &value) {
+  try {
+    return value.dump();
+  } catch (const nlohmann::json::type_error &) {
+    throw std::invalid_argument(fmt::format("{}: the text is not UTF-8", option));
+  }
+}
+
+} // namespace
+
 std::vector<std::string> CommonOptions::overrides() const {
   std::vector<std::string> result = sets;
   if (output)
-    result.push_back("output.directory=" + nlohmann::json(*output).dump());
+    result.push_back("output.directory=" + quoted("--output", *output));
   if (!formats.empty())
-    result.push_back("output.formats=" + nlohmann::json(formats).dump());
+    result.push_back("output.formats=" + quoted("--format", formats));
   if (threads)
     result.push_back(fmt::format("study.threads={}", *threads));
   if (repeats)

@@ -105,7 +105,10 @@ Measured parse_checkpoint(const std::string &bytes, const std::string &name, con
   if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
     fail("no checkpoint of this program; remove it, or set time.resume = false");
   if (json.value("schema", nlohmann::json()) != schema)
-    fail(fmt::format("schema {}; this version reads schema {}", json.value("schema", nlohmann::json()).dump(), schema));
+    // Of a string in CBOR nobody has looked whether it is UTF-8.
+    fail(fmt::format(
+        "schema {}; this version reads schema {}",
+        json.value("schema", nlohmann::json()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), schema));
   if (json.value("identity", nlohmann::json()) != identity)
     fail("belongs to another scene: problem, material, effects, time, method, level and seed must be the same; "
          "remove it, or set time.resume = false");

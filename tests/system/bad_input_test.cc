@@ -199,6 +199,18 @@ TEST(BadInput, overrides) {
   }
 }
 
+TEST(BadInput, options_that_are_no_text) {
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\n[study]\n"
+                             "levels = [\"16x4\"]\n");
+  for (const std::string option : {"--output", "--format"}) {
+    const auto answer = run_here({"run", "scene.toml", option, "o\xff"}, folder.path());
+    EXPECT_EQ(answer.exit_code, 3) << option;
+    EXPECT_EQ(answer.err, "error: " + option + ": the text is not UTF-8\n");
+    EXPECT_EQ(answer.out, "");
+  }
+}
+
 TEST(BadInput, usage_errors_end_with_2) {
   const Folder folder;
   folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\n[study]\n"

@@ -99,6 +99,9 @@ TEST_F(Checkpoint, ForeignFilesAreRefusedByName) {
   const auto json = nlohmann::json::to_cbor({{"format", "petrov checkpoint"}, {"schema", 2}});
   write({reinterpret_cast<const char *>(json.data()), json.size()});
   EXPECT_NE(refusal("id", state_).find("schema 2; this version reads schema 1"), std::string::npos);
+  const auto no_text = nlohmann::json::to_cbor({{"format", "petrov checkpoint"}, {"schema", "\xff"}});
+  write({reinterpret_cast<const char *>(no_text.data()), no_text.size()});
+  EXPECT_NE(refusal("id", state_).find("this version reads schema 1"), std::string::npos) << "bytes that are not UTF-8";
   fs::remove(file_);
   EXPECT_NE(refusal("id", state_).find("cannot be read"), std::string::npos);
 }
