@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
+#include <shared_mutex>
 #include <utility>
 #include <vector>
 
@@ -26,20 +28,6 @@ struct SolvedRows {
   linear_algebra::SystemSolution system;
   std::int64_t nonzeros = 0;
 };
-
-/// Room for all rows, once the first particles have told their length: growing step by step copies the matrix several
-/// times and holds it twice. The first particles often lie along a boundary, where rows are shorter: the longest of
-/// them counts. Room that is not used is never touched.
-inline void reserve_by_longest(linear_algebra::SparseRows &matrix) {
-  const auto n_rows = static_cast<std::size_t>(matrix.n_rows());
-  std::int64_t longest = 0;
-  for (std::size_t row = 0; row < n_rows; ++row)
-    longest = std::max(longest, matrix.offsets()[row + 1] - matrix.offsets()[row]);
-  constexpr double most = 1.3; // times the mean; a single long row says little, and a limit of memory counts room
-  const double mean = static_cast<double>(matrix.nonzeros()) / static_cast<double>(n_rows);
-  matrix.reserve(static_cast<std::size_t>(std::min(static_cast<double>(longest), most * mean) *
-                                          static_cast<double>(matrix.n_columns())));
-}
 
 /// Assembles the rows of one particle and divides them, and their right-hand sides, by their largest entries, while
 /// they are in the cache: large systems would pass through memory once more.
@@ -62,24 +50,21 @@ void assemble_equilibrated(Assembler &assembler, std::size_t particle, std::size
 template <typename Assembler, typename Another>
 void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
                    linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
-  constexpr std::size_t n_few = 128, n_first = 4096; // many rows, and few of a large system
   if (parallel::threads() == 1) {
-    for (std::size_t i = 0; i < n_particles; ++i) {
-      if (i == n_few || i == n_first)
-        reserve_by_longest(matrix);
+    for (std::size_t i = 0; i < n_particles; ++i)
       assemble_equilibrated(assembler, i, 0, matrix, right_hand_side);
-    }
     return;
   }
   struct Rows {
     linear_algebra::SparseRows matrix;
     std::vector<double> right_hand_side;
+    std::size_t place = 0; // of the entries, in the whole matrix
   };
   constexpr std::size_t chunk = 32; // a millisecond or so
-  static_assert(n_few % chunk == 0 && n_first % chunk == 0);
   const auto per_particle = static_cast<std::size_t>(matrix.n_columns()) / n_particles;
   linear_algebra::Stopwatch watch;
   tbb::enumerable_thread_specific<Assembler> assemblers(another);
+  std::shared_mutex moving;          // the matrix to where it has more room
   tbb::concurrent_queue<Rows> spare; // storage of chunks that have been taken: its growth would cost page faults
   parallel::in_ordered_chunks<Rows>(
       n_particles, chunk, parallel::threads(),
@@ -95,10 +80,23 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
         return rows;
       },
       [&](Rows &rows) {
-        if (const std::size_t n_done = right_hand_side.size() / per_particle; n_done == n_few || n_done == n_first)
-          reserve_by_longest(matrix);
-        matrix.append_rows(rows.matrix);
+        const auto n_more = static_cast<std::size_t>(rows.matrix.nonzeros());
+        if (!matrix.has_room(n_more)) {
+          const std::unique_lock lock(moving);
+          // For all rows if they are as those so far, and a tenth: moving stops the others.
+          const auto n_done = static_cast<double>(right_hand_side.size() + rows.right_hand_side.size());
+          const auto n_entries = static_cast<double>(matrix.nonzeros() + rows.matrix.nonzeros());
+          matrix.reserve(static_cast<std::size_t>(1.1 * n_entries * static_cast<double>(matrix.n_columns()) / n_done));
+          rows.place = matrix.append_place(rows.matrix);
+        } else
+          rows.place = matrix.append_place(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
+      },
+      [&](Rows &rows) {
+        {
+          const std::shared_lock lock(moving);
+          matrix.fill(rows.place, rows.matrix);
+        }
         spare.push(std::move(rows));
       });
   const double wall = watch.lap();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshless/linear_algebra/large_array.h"
 #include "meshless/linear_algebra/sparse_rows.h"
 
 #include <array>
@@ -23,8 +24,8 @@ struct BlockRows {
   void multiply(std::span<const double> x, std::span<double> y) const;
 
   std::vector<std::size_t> start;
-  std::vector<Index> columns;
-  std::vector<Block> blocks;
+  LargeArray<Index> columns;
+  LargeArray<Block> blocks;
 };
 
 /// Sum of the absolute entries.

@@ -32,8 +32,8 @@ private:
   using SingleBlock = std::array<float, 4>;
   struct Triangle {
     std::vector<std::size_t> start{0};
-    std::vector<Index> columns;
-    std::vector<SingleBlock> blocks;
+    LargeArray<Index> columns;
+    LargeArray<SingleBlock> blocks;
 
     void append(Index column, const BlockRows::Block &block);
     void subtract(std::size_t row, std::span<const double> x, double &sum_1, double &sum_2) const;

@@ -52,12 +52,18 @@ void SparseRows::append(std::span<const Integer> columns, std::span<const double
   offsets_.push_back(static_cast<std::int64_t>(end));
 }
 
-void SparseRows::append_rows(const SparseRows &rows) {
+std::size_t SparseRows::append_place(const SparseRows &rows) {
   const auto first = offsets_.back();
-  columns_.insert(columns_.end(), rows.columns_.begin(), rows.columns_.end());
-  values_.insert(values_.end(), rows.values_.begin(), rows.values_.end());
+  columns_.resize(columns_.size() + rows.columns_.size());
+  values_.resize(values_.size() + rows.values_.size());
   for (std::size_t row = 1; row < rows.offsets_.size(); ++row)
     offsets_.push_back(first + rows.offsets_[row]);
+  return static_cast<std::size_t>(first);
+}
+
+void SparseRows::fill(std::size_t place, const SparseRows &rows) {
+  std::copy(rows.columns_.begin(), rows.columns_.end(), columns_.data() + place);
+  std::copy(rows.values_.begin(), rows.values_.end(), values_.data() + place);
 }
 
 std::vector<double> SparseRows::equilibrate_rows() {

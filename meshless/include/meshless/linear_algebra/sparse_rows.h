@@ -1,5 +1,8 @@
 #pragma once
 
+#include "meshless/linear_algebra/large_array.h"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +20,7 @@ public:
   /// @throws std::invalid_argument for more than 2^31 - 1 columns
   explicit SparseRows(std::int64_t n_columns);
 
+  /// Room for so many in all.
   void reserve(std::size_t n_entries);
   /// No rows; their storage is kept.
   void clear();
@@ -27,7 +31,15 @@ public:
   void append_row(std::span<const std::int64_t> columns, std::span<const double> values);
 
   /// Appends the rows of a matrix with as many columns.
-  void append_rows(const SparseRows &rows);
+  void append_rows(const SparseRows &rows) { fill(append_place(rows), rows); }
+  /// The same in two steps: the place of their entries, then these. Several threads may fill places of their own while
+  /// others are appended, as long as there is room.
+  /// @returns what `fill` asks for
+  std::size_t append_place(const SparseRows &rows);
+  void fill(std::size_t place, const SparseRows &rows);
+  bool has_room(std::size_t n_entries) const {
+    return columns_.size() + n_entries <= std::min(columns_.capacity(), values_.capacity());
+  }
 
   /// Divides every row by its largest absolute entry and returns the divisors: the weak and the
   /// strong form mix rows of stiffness, traction and penalty size.
@@ -53,8 +65,8 @@ private:
 
   std::int64_t n_columns_;
   std::vector<std::int64_t> offsets_;
-  std::vector<Column> columns_;
-  std::vector<double> values_;
+  LargeArray<Column> columns_;
+  LargeArray<double> values_;
 };
 
 /// a A + b B for matrices of the same size.
