@@ -1,6 +1,7 @@
 // Interrupting and repeating a run in one folder: what is named as a result is always whole.
 
 #include "comparisons/reports/json.h"
+#include "sanitized.h"
 #include "system/program_process.h"
 #include "system/whole_files.h"
 
@@ -29,7 +30,7 @@ TEST(Interruption, never_leaves_a_half_written_file) {
     Process process(comparison, folder.path());
     if (after > 100)
       wait_for_run(out, before);
-    std::this_thread::sleep_for(milliseconds(after));
+    std::this_thread::sleep_for(milliseconds(after > 100 ? after * sanitized::slowness : after));
     process.send(SIGINT);
     const auto ended = process.wait();
     expect_whole_folder(out);
