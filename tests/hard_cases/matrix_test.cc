@@ -2,6 +2,7 @@
 
 #include "comparisons/hard_cases/case_table.h"
 #include "comparisons/hard_cases/matrix.h"
+#include "sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,7 @@ TEST(Matrix, a_crash_a_hang_and_no_number_fail_while_a_named_refusal_does_not) {
   EXPECT_EQ(cell_of([](const std::string &) -> Measurement { throw std::runtime_error("oops"); }).verdict,
             CellVerdict::fails);
   const auto crashed = cell_of([](const std::string &) -> Measurement {
+    std::signal(SIGSEGV, SIG_DFL); // a sanitizer has a handler of its own
     std::raise(SIGSEGV);
     return {};
   });
@@ -90,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Quick, Family,
 TEST_P(Family, has_no_cell_that_fails) {
   const auto cases = select(case_table(catalogue()), {.cases = {GetParam()}, .methods = {}, .quick = true});
   ASSERT_FALSE(cases.empty());
-  const auto cells = run_matrix(cases, {.max_seconds = 30, .stop_requested = {}, .progress = {}});
+  const auto cells = run_matrix(cases, {.max_seconds = 30 * sanitized::slowness, .stop_requested = {}, .progress = {}});
   for (const auto &cell : cells) {
     EXPECT_NE(cell.verdict, CellVerdict::fails) << cell.family << ": " << cell.name << ", " << cell.method << ": "
                                                 << cell.reason << " " << cell.error.value_or(-1);
@@ -104,7 +106,7 @@ MatrixCell one(const std::string &hard_case, const std::string &method) {
   auto cases = select(case_table(catalogue()), {.cases = {hard_case}, .methods = {}, .quick = true});
   for (auto &c : cases)
     c.methods = {method};
-  return run_matrix(cases, {.max_seconds = 30, .stop_requested = {}, .progress = {}}).at(0);
+  return run_matrix(cases, {.max_seconds = 30 * sanitized::slowness, .stop_requested = {}, .progress = {}}).at(0);
 }
 
 TEST(Locking, shows_in_displacement_methods_with_a_warning_and_not_in_mixed_ones) {
@@ -179,7 +181,8 @@ TEST(ReentrantCorner, energy_of_elements_falls_with_the_singular_exponent) {
       select(case_table(catalogue()), {.cases = {"L-shape, rate of the stress"}, .methods = {}, .quick = false});
   ASSERT_EQ(cases.size(), 1u);
   cases[0].methods = {"fem Q1", "fem Q2", "weak1"};
-  for (const auto &cell : run_matrix(cases, {.max_seconds = 60, .stop_requested = {}, .progress = {}})) {
+  for (const auto &cell :
+       run_matrix(cases, {.max_seconds = 60 * sanitized::slowness, .stop_requested = {}, .progress = {}})) {
     ASSERT_TRUE(cell.value.has_value()) << cell.method << cell.reason;
     EXPECT_NEAR(*cell.value, .5445, .1) << cell.method;
   }

@@ -3,6 +3,7 @@
 
 #include "comparisons/program/run_command.h"
 #include "comparisons/reports/json.h"
+#include "sanitized.h"
 #include "system/program_process.h"
 
 #include <gtest/gtest.h>
@@ -81,13 +82,6 @@ study::Catalogue broken_catalogue() {
   }));
   return catalogue;
 }
-
-/// The address sanitizer ends a process whose memory is exhausted by itself, and has a report of its own.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool memory_can_be_limited = false;
-#else
-constexpr bool memory_can_be_limited = true;
-#endif
 
 struct Run {
   int code = 0;
@@ -177,8 +171,8 @@ TEST(FailingMethods, a_hang_ends_after_max_seconds) {
 }
 
 TEST(FailingMethods, exhausted_memory_ends_at_max_memory) {
-  if (!memory_can_be_limited)
-    GTEST_SKIP();
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
   const auto healthy = run({}, "", false);
   const auto run_ = run({"allocates", "library_out_of_memory"}, "max_memory = \"200 MB\"\n", false);
   EXPECT_EQ(run_.code, program::limit_reached);
@@ -188,8 +182,8 @@ TEST(FailingMethods, exhausted_memory_ends_at_max_memory) {
 }
 
 TEST(FailingMethods, a_solver_that_runs_out_of_memory_says_limit) {
-  if (!memory_can_be_limited)
-    GTEST_SKIP();
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
   const Folder folder;
   const std::string text =
       "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\nquadrature_points = 4\n"
@@ -211,8 +205,8 @@ TEST(FailingMethods, a_solver_that_runs_out_of_memory_says_limit) {
 }
 
 TEST(FailingMethods, a_case_that_needs_more_memory_leaves_the_other_cells_intact) {
-  if (!memory_can_be_limited)
-    GTEST_SKIP();
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
   const Folder folder;
   // The factors of 2 x 201 x 51 unknowns take some 300 MB.
   folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"fem\"\nlevels = [\"31x7\"]\n"

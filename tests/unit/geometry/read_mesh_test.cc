@@ -1,5 +1,6 @@
 // Reading mesh files: what is in them, and what is said of files that are none.
 
+#include "sanitized.h"
 #include "unit/geometry/meshes.h"
 
 #include <fmt/format.h>
@@ -116,25 +117,36 @@ TEST(ReadMesh, every_truncation_is_an_error) {
     }
 }
 
+/// The findings if a function reads the file.
+template <typename Reader>
+std::string findings_with(const fs::path &path, ReadOptions options, Reader reader) {
+  options.reader = [reader](const fs::path &, const ReadOptions &) -> std::string { return reader(); };
+  return findings(path, options);
+}
+
 TEST(ReadMesh, a_reader_that_crashes_or_hangs_ends_with_an_error) {
   const Folder folder;
   const auto path = folder.write("square.msh", square_2());
   ReadOptions options;
   options.max_seconds = 0.2;
-  const auto with = [&](auto reader) {
-    options.reader = [reader](const fs::path &, const ReadOptions &) -> std::string { return reader(); };
-    return findings(path, options);
-  };
-  const auto crashed = with([]() -> std::string { std::abort(); });
+  const auto crashed = findings_with(path, options, []() -> std::string { std::abort(); });
   EXPECT_NE(crashed.find(path.string() + ": error: the mesh reader failed: crashed"), std::string::npos) << crashed;
-  const auto hung = with([]() -> std::string {
+  const auto hung = findings_with(path, options, []() -> std::string {
     while (true)
       std::this_thread::sleep_for(std::chrono::seconds(1));
   });
   EXPECT_NE(hung.find(path.string() + ": error: the mesh reader did not come to an end"), std::string::npos) << hung;
+}
+
+TEST(ReadMesh, a_reader_that_needs_too_much_memory_ends_with_an_error) {
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
+  const Folder folder;
+  const auto path = folder.write("square.msh", square_2());
+  ReadOptions options;
   options.max_seconds = 30;
   options.max_memory = 64 << 20;
-  const auto greedy = with([] { return std::string(std::size_t{1} << 30, 'x'); });
+  const auto greedy = findings_with(path, options, [] { return std::string(std::size_t{1} << 30, 'x'); });
   EXPECT_NE(greedy.find("the mesh reader needs more than 64 MiB"), std::string::npos) << greedy;
 }
 
