@@ -81,6 +81,10 @@ std::size_t IncompleteLu::bytes() const {
 
 /// Row by row (the order IKJ): from row i the multiples of the rows before it are taken that its pattern names.
 void IncompleteLu::factorise_without_fill(const BlockRows &matrix, double drop) {
+  for (Triangle *triangle : {&lower_, &upper_}) { // at once: room that is not used is never touched
+    triangle->columns.reserve(matrix.columns.size() / 2);
+    triangle->blocks.reserve(matrix.columns.size() / 2);
+  }
   const std::size_t n = matrix.n_rows();
   std::vector<Block> row(n);
   std::vector<char> in_pattern(n, 0);

@@ -20,6 +20,8 @@ constexpr std::size_t large_page = std::size_t{2} << 20;
 /// From here on pages of its own: half of a large one is in use at least.
 constexpr std::size_t least_of_pages = large_page / 2;
 
+constexpr std::size_t most_growing_by_large = 16 * large_page;
+
 constexpr std::size_t in_pages(std::size_t size) { return (size + large_page - 1) / large_page * large_page; }
 
 /// `old` null: new pages; else it is given up.
@@ -30,7 +32,9 @@ void *pages([[maybe_unused]] void *old, [[maybe_unused]] std::size_t old_size, [
                    : mremap(old, old_size, size, MREMAP_MAYMOVE);
   if (data == MAP_FAILED)
     throw std::bad_alloc();
-  madvise(data, size, MADV_HUGEPAGE); // refused: small ones
+  // Refused: small ones. Much memory that is taken step by step costs less in these: large ones may have to be found
+  // anew.
+  madvise(data, size, old != nullptr && size > most_growing_by_large ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
   return data;
 #else
   return nullptr;
