@@ -80,16 +80,14 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
         return rows;
       },
       [&](Rows &rows) {
-        const auto n_more = static_cast<std::size_t>(rows.matrix.nonzeros());
-        if (!matrix.has_room(n_more)) {
+        if (!matrix.has_room(static_cast<std::size_t>(rows.matrix.nonzeros()))) {
           const std::unique_lock lock(moving);
           // For all rows if they are as those so far, and a tenth: moving stops the others.
           const auto n_done = static_cast<double>(right_hand_side.size() + rows.right_hand_side.size());
           const auto n_entries = static_cast<double>(matrix.nonzeros() + rows.matrix.nonzeros());
           matrix.reserve(static_cast<std::size_t>(1.1 * n_entries * static_cast<double>(matrix.n_columns()) / n_done));
-          rows.place = matrix.append_place(rows.matrix);
-        } else
-          rows.place = matrix.append_place(rows.matrix);
+        }
+        rows.place = matrix.append_place(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());
       },
       [&](Rows &rows) {
