@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace {
 
+using meshless::cloud::Index;
 using Item = std::pair<std::uint64_t, std::size_t>;
 
 void expect_sorted(std::vector<Item> items) {
@@ -34,6 +36,25 @@ TEST(RadixSort, is_a_stable_sort_for_numbers_of_any_width) {
         expect_sorted(items);
       }
   expect_sorted({{std::numeric_limits<std::uint64_t>::max(), 0}, {0, 1}, {1, 2}, {0, 3}});
+}
+
+TEST(RadixSort, sorts_distinct_indices_close_together_or_far_apart) {
+  sample_clouds::Uniform random(2);
+  for (const std::size_t n : {0, 1, 2, 100, 3000})
+    for (const double spread : {1.0, 3.0, 63.5, 128.0, 200.0, 1e5}) {
+      std::set<Index> drawn;
+      const double range = spread * static_cast<double>(n);
+      while (drawn.size() < n)
+        drawn.insert(70 + static_cast<Index>(random() * range));
+      std::vector<Index> indices(drawn.begin(), drawn.end());
+      for (std::size_t i = n; i > 1; --i)
+        std::swap(indices[i - 1], indices[static_cast<std::size_t>(random() * static_cast<double>(i))]);
+      indices.push_back(-1); // behind those that are sorted
+      meshless::cloud::sort_indices(indices, n);
+      EXPECT_EQ(indices.size(), n + 1);
+      indices.resize(n);
+      EXPECT_EQ(indices, std::vector<Index>(drawn.begin(), drawn.end())) << n << " " << spread;
+    }
 }
 
 } // namespace
