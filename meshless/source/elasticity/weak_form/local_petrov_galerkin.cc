@@ -9,6 +9,7 @@
 #include "meshless/parallel/threads.h"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,19 @@
 namespace meshless::elasticity::weak_form {
 
 namespace {
+
+/// An evaluation near the particles of one region; it refers to its own filter.
+struct RegionEvaluation {
+  RegionFilter filter;
+  basis::GroupedEvaluation<2> evaluation;
+
+  RegionEvaluation(const Surroundings &surroundings, const cloud::CandidateSearch<2> &search,
+                   const basis::ShapeFunctions<2> &basis, std::size_t region)
+      : filter(surroundings, search.particles(), region),
+        evaluation(basis, search, surroundings.simple() ? nullptr : &filter) {}
+  RegionEvaluation(const RegionEvaluation &) = delete;
+  RegionEvaluation &operator=(const RegionEvaluation &) = delete;
+};
 
 /// The basis must exist at the particles too, where quadrature points never fall: a support that is too small shows
 /// there first.
@@ -32,12 +46,13 @@ void require_basis_at_particles(const Surroundings &surroundings, const cloud::C
         positions.push_back(particles.position(i));
         numbers.push_back(i);
       }
+    // One for each thread, not for each chunk: it goes through all particles when it is made.
+    tbb::enumerable_thread_specific<RegionEvaluation> own(
+        [&] { return RegionEvaluation(surroundings, search, basis, r); });
     const auto visit = [&](std::size_t begin, std::size_t end) {
-      RegionFilter filter(surroundings, particles, r);
-      basis::GroupedEvaluation<2>(basis, search, surroundings.simple() ? nullptr : &filter)
-          .visit(
-              std::span(positions).subspan(begin, end - begin), {}, [](const auto &) {}, "particle",
-              std::span(numbers).subspan(begin, end - begin));
+      own.local().evaluation.visit(
+          std::span(positions).subspan(begin, end - begin), {}, [](const auto &) {}, "particle",
+          std::span(numbers).subspan(begin, end - begin));
     };
     if (parallel::threads() > 1)
       try {
