@@ -18,11 +18,14 @@
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
-// OpenBLAS's own calls; declared here because its header clashes with other CBLAS headers.
+// Calls of OpenBLAS; declared here because its header clashes with other CBLAS headers.
 extern "C" {
 void openblas_set_num_threads(int threads);
 char *openblas_get_config(void);
+void dpotrf_(const char *triangle, const int *n, double *a, const int *row_length, int *info);
+void daxpy_(const int *n, const double *factor, const double *x, const int *step_x, double *y, const int *step_y);
 }
 
 namespace comparisons::metrics {
@@ -58,6 +61,21 @@ std::optional<double> busy_seconds() {
   if (!stat || name != "cpu" || per_second <= 0)
     return {};
   return (ticks[0] + ticks[1] + ticks[2] + ticks[5] + ticks[6] + ticks[7]) / static_cast<double>(per_second);
+}
+
+/// OpenBLAS takes work memory, 128 MB of addresses, for each of its threads as it starts and for a caller's first
+/// factorisation; refused, it asks again for ever. A child process whose memory is limited must find it taken.
+void take_work_memory_of_blas() {
+  constexpr int n = 20000; // enough entries for all threads to be given some: it returns when they have started
+  constexpr int step = 1;
+  constexpr double factor = 1;
+  const std::vector<double> x(n);
+  std::vector<double> y(n);
+  daxpy_(&n, &factor, x.data(), &step, y.data(), &step);
+  constexpr int order = 2;
+  double matrix[order * order] = {1, 0, 0, 1};
+  int info = 0;
+  dpotrf_("L", &order, matrix, &order, &info);
 }
 
 double own_seconds() {
@@ -124,6 +142,7 @@ reports::Program describe_program() {
 void use_threads(int threads) {
   setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
   openblas_set_num_threads(threads);
+  take_work_memory_of_blas();
   meshless::parallel::set_threads(threads);
   fem_reference::set_threads(threads);
 }

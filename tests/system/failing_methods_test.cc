@@ -6,6 +6,7 @@
 #include "sanitized.h"
 #include "system/program_process.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -202,6 +204,55 @@ TEST(FailingMethods, a_solver_that_runs_out_of_memory_says_limit) {
       EXPECT_TRUE(cell.status == reports::Status::ok || cell.status == reports::Status::limit)
           << memory << ", " << cell.label << ": " << cell.reason;
   }
+}
+
+/// A variable of the environment, as it was at the end.
+class Variable {
+public:
+  Variable(const char *name, const char *value) : name_(name) {
+    if (const char *old = std::getenv(name); old != nullptr)
+      old_ = old;
+    setenv(name, value, 1);
+  }
+  ~Variable() {
+    if (old_)
+      setenv(name_, old_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Variable(const Variable &) = delete;
+  Variable &operator=(const Variable &) = delete;
+
+private:
+  const char *name_;
+  std::optional<std::string> old_;
+};
+
+// OpenBLAS with one thread, as on a machine with one core, takes its work memory when it first needs it, and asks for
+// ever if it gets none.
+TEST(FailingMethods, a_limit_of_memory_below_what_blas_takes_is_no_hang) {
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"fem\"\n[[method]]\nname = "
+                             "\"weak1\"\nsolver = \"umfpack\"\n[study]\nlevels = [\"31x7\"]\nmax_seconds = 30\n");
+  for (const char *in_environment : {"1", "2"})
+    for (const char *threads : {"1", "2"})
+      for (const char *memory : {"100 MB", "30 MB", "1 MB"}) {
+        const Variable variable("OMP_NUM_THREADS", in_environment);
+        run_program({"run", "scene.toml", "--output", "out", "--threads", threads, "--set",
+                     std::string("study.max_memory=\"") + memory + "\""},
+                    folder.path());
+        for (const auto &cell : reports::read_results(folder / "out/results.json").cells) {
+          const std::string at =
+              fmt::format("{}, {} threads ({}), {}: {}", memory, threads, in_environment, cell.label, cell.reason);
+          EXPECT_EQ(cell.reason.find("max_seconds"), std::string::npos) << at;
+          if (memory == std::string("100 MB"))
+            EXPECT_EQ(cell.status, reports::Status::ok) << at;
+          else
+            EXPECT_TRUE(cell.status == reports::Status::ok || cell.status == reports::Status::limit) << at;
+        }
+      }
 }
 
 TEST(FailingMethods, a_case_that_needs_more_memory_leaves_the_other_cells_intact) {
