@@ -43,6 +43,14 @@ void assemble_equilibrated(Assembler &assembler, std::size_t particle, std::size
   assembler.seconds.assembly += watch.lap();
 }
 
+/// Room for the rows of all particles if they have as many entries as those so far, and a tenth: growing step by step
+/// moves large matrices and leaves room that is not used.
+/// @param n_rows_done rows that `n_entries` are in
+inline void make_room(linear_algebra::SparseRows &matrix, std::size_t n_entries, std::size_t n_rows_done) {
+  matrix.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n_entries) *
+                                          static_cast<double>(matrix.n_columns()) / static_cast<double>(n_rows_done)));
+}
+
 /// Assembles all rows, each divided by its largest entry, by as many threads as are set; the rows are the same for any
 /// number of them. `assembler.seconds` grow by the time that passes, shared between the phases as the threads spent
 /// theirs.
@@ -50,9 +58,19 @@ void assemble_equilibrated(Assembler &assembler, std::size_t particle, std::size
 template <typename Assembler, typename Another>
 void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_particles,
                    linear_algebra::SparseRows &matrix, std::vector<double> &right_hand_side) {
+  constexpr std::size_t chunk = 32; // a millisecond or so
   if (parallel::threads() == 1) {
-    for (std::size_t i = 0; i < n_particles; ++i)
+    std::size_t most = 0; // entries of a particle's rows so far
+    for (std::size_t i = 0; i < n_particles; ++i) {
+      const auto n_before = static_cast<std::size_t>(matrix.nonzeros());
+      if (i >= chunk && !matrix.has_room(most)) {
+        linear_algebra::Stopwatch watch;
+        make_room(matrix, n_before, right_hand_side.size());
+        assembler.seconds.assembly += watch.lap();
+      }
       assemble_equilibrated(assembler, i, 0, matrix, right_hand_side);
+      most = std::max(most, static_cast<std::size_t>(matrix.nonzeros()) - n_before);
+    }
     return;
   }
   struct Rows {
@@ -60,7 +78,6 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
     std::vector<double> right_hand_side;
     std::size_t place = 0; // of the entries, in the whole matrix
   };
-  constexpr std::size_t chunk = 32; // a millisecond or so
   const auto per_particle = static_cast<std::size_t>(matrix.n_columns()) / n_particles;
   linear_algebra::Stopwatch watch;
   tbb::enumerable_thread_specific<Assembler> assemblers(another);
@@ -82,10 +99,8 @@ void assemble_rows(Assembler &assembler, const Another &another, std::size_t n_p
       [&](Rows &rows) {
         if (!matrix.has_room(static_cast<std::size_t>(rows.matrix.nonzeros()))) {
           const std::unique_lock lock(moving);
-          // For all rows if they are as those so far, and a tenth: moving stops the others.
-          const auto n_done = static_cast<double>(right_hand_side.size() + rows.right_hand_side.size());
-          const auto n_entries = static_cast<double>(matrix.nonzeros() + rows.matrix.nonzeros());
-          matrix.reserve(static_cast<std::size_t>(1.1 * n_entries * static_cast<double>(matrix.n_columns()) / n_done));
+          make_room(matrix, static_cast<std::size_t>(matrix.nonzeros() + rows.matrix.nonzeros()),
+                    right_hand_side.size() + rows.right_hand_side.size()); // moving stops the others
         }
         rows.place = matrix.append_place(rows.matrix);
         right_hand_side.insert(right_hand_side.end(), rows.right_hand_side.begin(), rows.right_hand_side.end());

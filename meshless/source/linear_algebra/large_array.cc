@@ -1,5 +1,7 @@
 #include "meshless/linear_algebra/large_array.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <sys/mman.h>
@@ -17,21 +19,41 @@ constexpr bool has_pages = true;
 constexpr std::size_t large_page = std::size_t{2} << 20;
 /// From here on pages of its own: half of a large one is in use at least.
 constexpr std::size_t least_of_pages = large_page / 2;
-/// Above this, what is taken step by step costs less in small pages: large ones are split where a move leaves their
-/// boundaries (3.8 GB: 3.0 to 4.1 s against 1.4 to 2.7; on a virtual machine whose host has taken the memory back, 5 to
-/// 7 either way).
-constexpr std::size_t most_growing_by_large = 16 * large_page;
 
 bool in_pages(std::size_t size) { return has_pages && size >= least_of_pages; }
 
-/// @param old pages that are given up; null: none
-void *pages(void *old, std::size_t old_size, std::size_t size) {
-  void *data = old == nullptr
-                   ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)
-                   : mremap(old, old_size, size, MREMAP_MAYMOVE);
-  if (data == MAP_FAILED)
+/// Addresses for so many bytes that begin with a large page, without memory behind them.
+/// @throws std::bad_alloc
+void *aligned_addresses(std::size_t size) {
+  const std::size_t spare = size + large_page;
+  void *all =
+      spare < size ? MAP_FAILED : mmap(nullptr, spare, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (all == MAP_FAILED)
     throw std::bad_alloc();
-  madvise(data, size, old != nullptr && size > most_growing_by_large ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
+  auto *const first = static_cast<std::byte *>(all);
+  const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(all) % large_page) % large_page;
+  if (before > 0)
+    munmap(first, before);
+  munmap(first + before + size, large_page - before);
+  return first + before;
+}
+
+/// What is in the old pages moves at large pages' boundaries: elsewhere the system would split them all.
+/// @param old pages that are given up; null: none
+/// @throws std::bad_alloc
+void *pages(void *old, std::size_t old_size, std::size_t size) {
+  void *data = old == nullptr ? MAP_FAILED : mremap(old, old_size, size, 0); // where they are, if there is room
+  if (data == MAP_FAILED) {
+    void *place = aligned_addresses(size);
+    data = old == nullptr ? mmap(place, size, PROT_READ | PROT_WRITE,
+                                 MAP_FIXED | MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)
+                          : mremap(old, old_size, size, MREMAP_MAYMOVE | MREMAP_FIXED, place);
+    if (data == MAP_FAILED) {
+      munmap(place, size);
+      throw std::bad_alloc();
+    }
+  }
+  madvise(data, size, MADV_HUGEPAGE);
   return data;
 }
 

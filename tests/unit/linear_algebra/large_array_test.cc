@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <new>
 #include <numeric>
 #include <vector>
+
+#include <sys/mman.h>
 
 namespace {
 
@@ -30,6 +34,34 @@ TEST(LargeArray, keeps_its_values_while_it_grows_and_moves) {
   array = std::move(moved);
   ASSERT_EQ(array.size(), static_cast<std::size_t>(n));
   EXPECT_EQ(std::accumulate(array.begin(), array.end(), std::int64_t{0}), 3 * (n * (n - 1) / 2));
+}
+
+// Pages that move elsewhere would be split into small ones, whose first use and look-up cost more.
+TEST(LargeArray, keeps_to_large_pages_when_it_moves) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer watches what malloc gives: no pages of its own";
+#endif
+  constexpr std::uintptr_t large_page = std::uintptr_t{2} << 20;
+  constexpr std::size_t small_page = 4096;
+  LargeArray<double> array;
+  array.reserve(300'000);      // 2.4 MB
+  std::vector<void *> between; // small mappings, in the way of growing in place and of addresses that fit by chance
+  const double *first = array.data();
+  bool moved = false;
+  for (std::size_t n = 300'000; n < 3'000'000; n = 2 * n) {
+    between.push_back(mmap(reinterpret_cast<std::byte *>(array.data()) - small_page, small_page, PROT_READ,
+                           MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    ASSERT_NE(between.back(), MAP_FAILED);
+    const std::size_t size = array.size();
+    array.resize(n);
+    std::fill(array.data() + size, array.end(), static_cast<double>(n));
+    moved = moved || array.data() != first;
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % large_page, 0u) << n;
+    EXPECT_EQ(array[0], 300'000);
+  }
+  EXPECT_TRUE(moved);
+  for (void *mapping : between)
+    munmap(mapping, small_page);
 }
 
 TEST(LargeArray, copies_are_apart) {
