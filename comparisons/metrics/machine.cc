@@ -14,7 +14,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
@@ -63,8 +65,23 @@ std::optional<double> busy_seconds() {
   return (ticks[0] + ticks[1] + ticks[2] + ticks[5] + ticks[6] + ticks[7]) / static_cast<double>(per_second);
 }
 
-/// OpenBLAS takes work memory, 128 MB of addresses, for each of its threads as it starts and for a caller's first
-/// factorisation; refused, it asks again for ever. A child process whose memory is limited must find it taken.
+/// OpenBLAS takes work memory, addresses of this size, for each of its threads as it starts and for a caller's first
+/// factorisation; refused, it asks again for ever.
+constexpr std::size_t blas_work_bytes = std::size_t{128} << 20;
+
+/// @throws std::runtime_error if this process may not have that much
+void check_room_for_blas(int threads) {
+  const std::size_t bytes = static_cast<std::size_t>(threads) * blas_work_bytes;
+  void *const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED)
+    throw std::runtime_error(fmt::format(
+        "OpenBLAS needs {} MB of addresses for {} thread{}, which this process may not have: a limit (ulimit "
+        "-v) or the machine leaves less; max_memory in [study] limits a cell without this",
+        bytes >> 20, threads, threads == 1 ? "" : "s"));
+  munmap(room, bytes);
+}
+
+/// A child process whose memory is limited must find it taken.
 void take_work_memory_of_blas() {
   constexpr int n = 20000; // enough entries for all threads to be given some: it returns when they have started
   constexpr int step = 1;
@@ -141,8 +158,13 @@ reports::Program describe_program() {
 
 void use_threads(int threads) {
   setenv("OMP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+  static int with_memory = 0; // threads of BLAS that have theirs; it is never given back
+  if (threads > with_memory)
+    check_room_for_blas(threads - with_memory);
   openblas_set_num_threads(threads);
-  take_work_memory_of_blas();
+  if (threads > with_memory)
+    take_work_memory_of_blas();
+  with_memory = std::max(with_memory, threads);
   meshless::parallel::set_threads(threads);
   fem_reference::set_threads(threads);
 }

@@ -16,6 +16,7 @@ reports::Machine describe_machine(int threads);
 reports::Program describe_program();
 
 /// Sets the number of threads of BLAS, of meshless and of fem_reference, and with it that of TBB in the process.
+/// @throws std::runtime_error if the addresses that BLAS works in are more than this process may have
 void use_threads(int threads);
 
 /// One-minute load average of the machine, if the system tells.

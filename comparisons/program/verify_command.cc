@@ -1,7 +1,6 @@
 #include "comparisons/program/verify_command.h"
 
 #include "comparisons/hard_cases/case_table.h"
-#include "comparisons/hard_cases/matrix.h"
 #include "comparisons/program/interrupt.h"
 #include "comparisons/program/options.h"
 #include "comparisons/reports/files.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "comparisons/hard_cases/matrix.h"
 #include "comparisons/study/catalogue.h"
 
 #include <string>
@@ -14,7 +15,7 @@ struct VerifyOptions {
   std::vector<std::string> cases;   ///< parts of "family: name"
   std::vector<std::string> methods; ///< parts of labels
   std::string json;                 ///< file to write; empty: none
-  double max_seconds = 60;          ///< of a cell
+  double max_seconds = hard_cases::seconds_of_a_cell;
 };
 
 /// `petrov verify`: the matrix of hard cases x methods, each cell in a process of its own.

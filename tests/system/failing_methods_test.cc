@@ -255,6 +255,26 @@ TEST(FailingMethods, a_limit_of_memory_below_what_blas_takes_is_no_hang) {
       }
 }
 
+// Batch systems limit the addresses of a whole process.
+TEST(FailingMethods, a_limit_of_the_whole_process_that_leaves_blas_nothing_is_an_error) {
+  if (!sanitized::memory_can_be_limited)
+    GTEST_SKIP() << sanitized::no_limit_of_memory;
+  const Folder folder;
+  folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"weak1\"\n[study]\nlevels = "
+                             "[\"16x4\"]\n");
+  // 64 threads ask for 8 GB; the program without them takes less than 2.
+  const auto limited = [&](const std::string &arguments) {
+    const std::string program = PETROV_PROGRAM;
+    return Process({"-c", "ulimit -v 4000000; exec \"" + program + "\" run scene.toml --output out" + arguments},
+                   folder.path(), "/bin/bash")
+        .wait();
+  };
+  const auto ended = limited(" --threads 64");
+  EXPECT_EQ(ended.exit_code, program::invalid_scene) << ended.err;
+  EXPECT_NE(ended.err.find("OpenBLAS needs 8192 MB of addresses for 64 threads"), std::string::npos) << ended.err;
+  EXPECT_EQ(limited("").exit_code, program::all_as_expected);
+}
+
 TEST(FailingMethods, a_case_that_needs_more_memory_leaves_the_other_cells_intact) {
   if (!sanitized::memory_can_be_limited)
     GTEST_SKIP() << sanitized::no_limit_of_memory;
