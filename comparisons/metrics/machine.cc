@@ -71,14 +71,22 @@ constexpr std::size_t blas_work_bytes = std::size_t{128} << 20;
 
 /// @throws std::runtime_error if this process may not have that much
 void check_room_for_blas(int threads) {
-  const std::size_t bytes = static_cast<std::size_t>(threads) * blas_work_bytes;
-  void *const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED)
+  std::vector<void *> rooms; // one by one, as it asks: a machine may refuse them all at once
+  bool enough = true;
+  for (int i = 0; i < threads && enough; ++i) {
+    void *const room = mmap(nullptr, blas_work_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    enough = room != MAP_FAILED;
+    if (enough)
+      rooms.push_back(room);
+  }
+  for (void *const room : rooms)
+    munmap(room, blas_work_bytes);
+  if (!enough)
     throw std::runtime_error(fmt::format(
         "OpenBLAS needs {} MB of addresses for {} thread{}, which this process may not have: a limit (ulimit "
-        "-v) or the machine leaves less; max_memory in [study] limits a cell without this",
-        bytes >> 20, threads, threads == 1 ? "" : "s"));
-  munmap(room, bytes);
+        "-v) or the machine leaves {} MB; max_memory in [study] limits a cell without this",
+        (static_cast<std::size_t>(threads) * blas_work_bytes) >> 20, threads, threads == 1 ? "" : "s",
+        (rooms.size() * blas_work_bytes) >> 20));
 }
 
 /// A child process whose memory is limited must find it taken.

@@ -273,6 +273,9 @@ TEST(FailingMethods, a_limit_of_the_whole_process_that_leaves_blas_nothing_is_an
   EXPECT_EQ(ended.exit_code, program::invalid_scene) << ended.err;
   EXPECT_NE(ended.err.find("OpenBLAS needs 8192 MB of addresses for 64 threads"), std::string::npos) << ended.err;
   EXPECT_EQ(limited("").exit_code, program::all_as_expected);
+  // Without a limit more than the memory of the machine is no error: few of these addresses are used.
+  EXPECT_EQ(run_program({"run", "scene.toml", "--output", "out", "--threads", "1024"}, folder.path()).exit_code,
+            program::all_as_expected);
 }
 
 TEST(FailingMethods, a_case_that_needs_more_memory_leaves_the_other_cells_intact) {
