@@ -13,6 +13,10 @@ inline constexpr bool memory_can_be_limited = true;
 inline constexpr int slowness = 1;
 #endif
 
+/// How often a test does the same over again, as with other seeds, if it is `natively` often elsewhere: what the
+/// sanitizers look at has run after a few.
+constexpr int repetitions(int natively) { return slowness == 1 ? natively : (natively + 4) / 5; }
+
 inline constexpr const char *no_limit_of_memory =
     "the address sanitizer ends a process whose memory is exhausted, before the program can";
 

@@ -4,12 +4,16 @@
 #include "comparisons/program/options.h"
 #include "comparisons/program/run_command.h"
 #include "comparisons/reports/json.h"
+#include "sanitized.h"
 #include "system/program_process.h"
 #include "verification/scene_runs.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace {
 
@@ -81,7 +85,9 @@ TEST(PlateWithHole, order_4_is_far_more_accurate_with_the_same_particles) {
 
 /// Twenty clouds that nobody chose: none fails, and the worst is within five times the median.
 TEST(PlateWithHole, weak1_on_twenty_fresh_clouds) {
-  const auto cells = run_shipped_plate("fresh_clouds");
+  std::vector<int> seeds(sanitized::repetitions(20));
+  std::iota(seeds.begin(), seeds.end(), 1);
+  const auto cells = run_shipped_plate("fresh_clouds", {fmt::format("problem.cloud_seed={}", seeds)});
   for (const std::string level : {"188", "686"}) {
     std::vector<double> errors;
     for (const auto &cell : cells)
@@ -89,21 +95,23 @@ TEST(PlateWithHole, weak1_on_twenty_fresh_clouds) {
         EXPECT_EQ(cell.status, reports::Status::ok) << name_of(cell);
         errors.push_back(l2(cell));
       }
-    ASSERT_EQ(errors.size(), 20u);
+    ASSERT_EQ(errors.size(), seeds.size());
     std::sort(errors.begin(), errors.end());
-    const double median = .5 * (errors[9] + errors[10]);
+    const double median = .5 * (errors[errors.size() / 2 - 1] + errors[errors.size() / 2]);
     EXPECT_LE(errors.back(), 5 * median) << level;
     EXPECT_LE(median, level == "188" ? 7e-3 : 2.5e-3) << level;
   }
 }
 
-/// Four levels of shipped clouds, a factor of two in the spacing between the first three.
+/// Levels of shipped clouds, a factor of two in the spacing between the first three.
 TEST(PlateWithHole, displacement_converges_with_the_order_of_the_basis) {
-  const auto cells =
-      run(read("schema = 1\nbenchmark = \"plate_with_hole\"\n[[method]]\nname = \"weak1\"\norder = [1, 2, 3, 4]\n"
-               "[study]\nlevels = [188, 686, 2600, 5200]\n"));
+  const std::vector<int> levels{188, 686, 2600, 5200};
+  const auto n_levels = sanitized::slowness == 1 ? 4 : 3;
+  const auto cells = run(read(fmt::format("schema = 1\nbenchmark = \"plate_with_hole\"\n[[method]]\nname = \"weak1\"\n"
+                                          "order = [1, 2, 3, 4]\n[study]\nlevels = {}\n",
+                                          std::span(levels).first(n_levels))));
   const auto mean_rate = [&](const std::string &label) {
-    return rate(find(cells, label, "188"), find(cells, label, "5200"));
+    return rate(find(cells, label, "188"), find(cells, label, fmt::format("{}", levels[n_levels - 1])));
   };
   EXPECT_GE(mean_rate("weak1 order=1"), 1.);
   EXPECT_GE(mean_rate("weak1 order=2"), 1.7);
