@@ -154,14 +154,16 @@ void add_hard_cases(const Plan &plan, bool quiet, const study::Catalogue &catalo
 }
 
 int execute(const Plan &plan, const CommonOptions &options, const study::Catalogue &catalogue, bool with_ledger) {
+  std::optional<reports::OutputLock> lock;
   try {
     reports::prepare_output_directory(plan.directory);
+    lock.emplace(plan.directory);
     if (!plan.scenes.empty())
       fs::create_directories(plan.directory / "series");
   } catch (const std::exception &error) {
     const auto place = plan.scenes.empty() ? scene::Location() : plan.scenes.front().output.location("directory");
     print_diagnostic({scene::Severity::error, place, "output.directory", error.what(),
-                      "name a folder that can be written, here or with --output"});
+                      "name another folder, here or with --output"});
     return invalid_scene;
   }
   std::set<int> threads;

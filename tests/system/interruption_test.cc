@@ -106,6 +106,27 @@ TEST(Interruption, a_killed_program_takes_its_cell_along) {
   EXPECT_TRUE(process.left_nobody(2)) << "the cell's process goes on without anyone to end it";
 }
 
+/// Two runs would write over each other's files: the second ends before it computes, the first does not notice.
+TEST(Interruption, one_run_at_a_time_writes_to_a_folder) {
+  const Folder folder;
+  folder.write("scene.toml", long_scene);
+  Process first({"run", "scene.toml", "--isolate"}, folder.path());
+  wait_for_run(folder / "out");
+  const Folder elsewhere; // what the second prints is not to be taken for the first's
+  const auto second =
+      run_program({"run", (folder / "scene.toml").string(), "--output", (folder / "out").string()}, elsewhere.path());
+  EXPECT_EQ(second.exit_code, 3) << second.out;
+  EXPECT_NE(second.err.find("another run is writing its results here"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("--output"), std::string::npos) << second.err;
+  // A killed one, its cell with it, leaves the folder to the next.
+  first.send_to_program(SIGKILL);
+  EXPECT_EQ(first.wait().signal, SIGKILL);
+  folder.write("short.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"strong\"\n[study]\n"
+                             "levels = [\"16x4\"]\n");
+  const auto next = run_program({"run", "short.toml"}, folder.path());
+  EXPECT_EQ(next.exit_code, 0) << next.err;
+}
+
 TEST(Interruption, a_thousand_repeats_end_between_two) {
   const Folder folder;
   folder.write("scene.toml", "schema = 1\nbenchmark = \"cantilever\"\n[[method]]\nname = \"strong\"\n[study]\n"

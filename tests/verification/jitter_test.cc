@@ -1,5 +1,6 @@
 // Irregular particles: the default weak1 on twenty clouds moved by up to 30 % of the spacing, against the uniform one.
 
+#include "sanitized.h"
 #include "verification/scene_runs.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(Jitter, worst_of_twenty_cantilevers_is_within_ten_times_the_uniform_one) {
                         {"solution = \"trigonometric\"\n[effects]\nelasticity = true\nbody_force = true\n", 0}};
   for (const auto &[problem, rounding] : problems) {
     const auto uniform = cells_of(problem, 0, 1);
-    for (int seed = 1; seed <= 20; ++seed) {
+    for (int seed = 1; seed <= sanitized::repetitions(20); ++seed) {
       const auto moved = cells_of(problem, .3, seed);
       ASSERT_EQ(moved.size(), 4u);
       for (std::size_t i = 0; i < moved.size(); ++i)
