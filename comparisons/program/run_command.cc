@@ -8,6 +8,7 @@
 #include "comparisons/program/interrupt.h"
 #include "comparisons/reports/answers.h"
 #include "comparisons/reports/files.h"
+#include "comparisons/reports/output_lock.h"
 #include "comparisons/reports/reports.h"
 #include "comparisons/scene/reader.h"
 #include "comparisons/study/run_scene.h"

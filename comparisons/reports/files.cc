@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <chrono>
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
-#include <sys/file.h>
 #include <system_error>
-#include <thread>
 #include <unistd.h>
 
 namespace comparisons::reports {
@@ -102,24 +99,6 @@ void prepare_output_directory(const std::filesystem::path &directory) {
   // Only a real attempt tells: rights, a read-only or a full file system.
   TemporaryFile attempt(directory / "write_test");
   attempt.write("x");
-}
-
-OutputLock::OutputLock(const std::filesystem::path &directory)
-    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  using namespace std::chrono;
-  const auto end = steady_clock::now() + seconds(2);
-  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
-    if (steady_clock::now() > end) {
-      ::close(descriptor_);
-      throw OutputError(fmt::format("{}: another run is writing its results here", directory.string()));
-    }
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-}
-
-OutputLock::~OutputLock() {
-  if (descriptor_ >= 0)
-    ::close(descriptor_);
 }
 
 } // namespace comparisons::reports
