@@ -1,6 +1,7 @@
 #include "comparisons/study/run_scene.h"
 
 #include "comparisons/metrics/machine.h"
+#include "comparisons/metrics/ready_memory.h"
 #include "comparisons/reports/json.h"
 #include "comparisons/study/cell_run.h"
 #include "comparisons/study/isolation.h"
@@ -21,11 +22,15 @@ constexpr double long_cell_seconds = 10;
 /// Repeats that took less together are not worth a line of the journal, which holds all repeats so far: a thousand
 /// short ones would write half a million.
 constexpr double least_kept_seconds = 0.1;
+/// Memory is made ready for cells that need at least this much: they take a second or more.
+constexpr double least_ready_bytes = 256 << 20;
+constexpr double most_ready_bytes = 1e15;
 
 /// A cell with the seconds of its repeats.
 struct Measured : KeptCell {
   CellTask task;
   bool warm = false; ///< has run in this process
+  double bytes = 0;  ///< estimate of its memory; 0: none
   double unkept_seconds = 0;
 };
 
@@ -117,7 +122,24 @@ private:
     return total == measured.samples.end() ? 0 : static_cast<int>(total->second.size());
   }
 
-  reports::Cell run_once(const CellTask &task, bool with_errors) {
+  /// Bytes that a run should find ready; 0 for a cell that need not. A long cell runs once, without warm-up, and the
+  /// repeats of a large one are far apart.
+  std::int64_t bytes_to_ready(const Measured &measured) const {
+    double bytes = measured.cell.memory_bytes > 0 ? static_cast<double>(measured.cell.memory_bytes) : measured.bytes;
+    if (limits_.memory_bytes)
+      bytes = std::min(bytes, static_cast<double>(*limits_.memory_bytes));
+    return bytes >= least_ready_bytes ? static_cast<std::int64_t>(std::min(bytes, most_ready_bytes)) : 0;
+  }
+
+  reports::Cell run_once(const Measured &measured, bool with_errors) {
+    const CellTask &task = measured.task;
+    const metrics::ReadyMemory ready(bytes_to_ready(measured), options_.stop_requested);
+    if (stopped()) { // meanwhile: there may be much to make ready
+      reports::Cell cell = describe_cell(task);
+      cell.status = reports::Status::failed;
+      cell.reason = "interrupted";
+      return cell;
+    }
     const std::filesystem::path series =
         with_errors && options_.write_series ? options_.directory : std::filesystem::path();
     if (!isolate_)
@@ -143,32 +165,38 @@ private:
     return cell;
   }
 
+  static double estimated_bytes(const CellTask &task) {
+    try {
+      return task.experiment->estimate(*task.request, *task.level).bytes;
+    } catch (const std::exception &) {
+      return 0; // what is wrong with the level, the run itself will say
+    }
+  }
+
   /// Why a cell is hopeless on this machine; empty if it is not. The estimate may be too high by a factor of
   /// about 2, so only what exceeds that is refused beforehand.
-  static std::string too_large(const CellTask &task) {
+  static std::string too_large(double bytes) {
     const double memory = static_cast<double>(metrics::describe_machine(1).memory_bytes);
-    try {
-      const double bytes = task.experiment->estimate(*task.request, *task.level).bytes;
-      if (memory > 0 && bytes > 2 * memory)
-        return fmt::format("would need about {:.0f} GB, more than this machine has ({:.0f} GB); choose a coarser level",
-                           bytes / 1e9, memory / 1e9);
-    } catch (const std::exception &) {
-      // What is wrong with the level, the run itself will say.
-    }
+    if (memory > 0 && bytes > 2 * memory)
+      return fmt::format("would need about {:.0f} GB, more than this machine has ({:.0f} GB); choose a coarser level",
+                         bytes / 1e9, memory / 1e9);
     return {};
   }
 
   void first_run(Measured &measured) {
-    if (!measured.task.request->refused.empty()) {
+    const bool refused = !measured.task.request->refused.empty();
+    if (!refused)
+      measured.bytes = estimated_bytes(measured.task);
+    if (refused) {
       measured.cell = describe_cell(measured.task);
       measured.cell.status = reports::Status::refused;
       measured.cell.reason = measured.task.request->refused;
-    } else if (const auto reason = too_large(measured.task); !reason.empty()) {
+    } else if (const auto reason = too_large(measured.bytes); !reason.empty()) {
       measured.cell = describe_cell(measured.task);
       measured.cell.status = reports::Status::limit;
       measured.cell.reason = reason;
     } else
-      measured.cell = run_once(measured.task, true);
+      measured.cell = run_once(measured, true);
     measured.cell.expected = measured.task.request->expect == reports::to_text(measured.cell.status);
     const auto total = measured.cell.seconds.find("total");
     // The first run is the warm-up, unless the cell is long: then it is the only one.
@@ -188,11 +216,11 @@ private:
     if (measured.done)
       return;
     if (!measured.warm)
-      run_once(measured.task, false); // its first run was another process's
+      run_once(measured, false); // its first run was another process's
     measured.warm = true;
     if (stopped())
       return;
-    const auto cell = run_once(measured.task, false);
+    const auto cell = run_once(measured, false);
     if (cell.status != reports::Status::ok) {
       if (stopped())
         return;

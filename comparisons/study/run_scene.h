@@ -31,8 +31,8 @@ struct RunOptions {
 
 /// Runs every method x level (x problem variant) of a scene: one warm-up of each cell and then
 /// `repeats` rounds over all cells, interleaved, so that a drift of the machine's speed meets all
-/// methods alike. A cell that takes more than ten seconds is run once. Errors are those of the first
-/// run; each repeat gives a time.
+/// methods alike. A cell that takes more than ten seconds is run once. A cell that needs more than a quarter of a GB
+/// finds its memory ready (metrics::ReadyMemory). Errors are those of the first run; each repeat gives a time.
 ///
 /// A cell that fails leaves the others as they are and says why. Cells missing at the end were
 /// interrupted.

@@ -80,9 +80,14 @@ CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
   for (std::size_t c = 1; c < offsets_.size(); ++c)
     offsets_[c] += offsets_[c - 1];
   std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
-  members_.resize(positions.size() + n_lanes);
+  const auto make_room = [&](auto &array, auto behind) {
+    array.reserve(positions.size() + n_lanes);
+    array.resize(positions.size() + n_lanes);
+    std::fill(array.begin() + positions.size(), array.end(), behind);
+  };
+  make_room(members_, Index{0});
   for (auto &coordinate : sorted_)
-    coordinate.assign(positions.size() + n_lanes, std::numeric_limits<double>::infinity());
+    make_room(coordinate, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t slot = next[cell_index[i]]++;
     in_order_ = in_order_ && slot == i;

@@ -13,6 +13,14 @@ namespace meshless::cloud {
 
 namespace {
 
+template <typename T>
+linear_algebra::LargeArray<T> in_large_pages(std::span<const T> values) {
+  linear_algebra::LargeArray<T> result;
+  result.reserve(values.size());
+  result.append(values);
+  return result;
+}
+
 template <int dim>
 void check_positions(std::span<const Point<dim>> positions, std::span<const int> regions) {
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -42,8 +50,8 @@ void check_positions(std::span<const Point<dim>> positions, std::span<const int>
 template <int dim>
 Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double> smoothing_lengths,
                           std::vector<double> volumes, std::vector<int> regions, std::vector<Point<dim>> flattenings)
-    : positions_(std::move(positions)), smoothing_lengths_(std::move(smoothing_lengths)), volumes_(std::move(volumes)),
-      regions_(std::move(regions)), flattenings_(std::move(flattenings)) {
+    : positions_(in_large_pages<Point<dim>>(positions)), smoothing_lengths_(in_large_pages<double>(smoothing_lengths)),
+      volumes_(std::move(volumes)), regions_(std::move(regions)), flattenings_(std::move(flattenings)) {
   if (positions_.empty())
     throw std::invalid_argument("a cloud needs at least one particle");
   if (positions_.size() != smoothing_lengths_.size())
@@ -63,7 +71,7 @@ Particles<dim>::Particles(std::vector<Point<dim>> positions, std::vector<double>
   for (std::size_t i = 0; i < regions_.size(); ++i)
     if (regions_[i] < 0)
       throw std::invalid_argument(fmt::format("particle {}: its region {} is not an index", i, regions_[i]));
-  check_positions<dim>(positions_, regions_);
+  check_positions<dim>(this->positions(), regions_);
   for (std::size_t i = 0; i < volumes_.size(); ++i)
     if (!(volumes_[i] > 0) || !std::isfinite(volumes_[i]))
       throw std::invalid_argument(fmt::format("particle {}: its volume {} is not positive", i, volumes_[i]));

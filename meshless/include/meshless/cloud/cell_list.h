@@ -2,6 +2,7 @@
 
 #include "meshless/cloud/neighbour_lists.h"
 #include "meshless/cloud/particles.h"
+#include "meshless/linear_algebra/large_array.h"
 
 #include <array>
 #include <cstddef>
@@ -30,7 +31,7 @@ public:
 
   /// The particles cell by cell. Renumbered so, neighbours lie close to each other in memory, and a list with cells of
   /// the same size leaves them in place.
-  std::span<const Index> order() const { return std::span(members_).first(positions_.size()); }
+  std::span<const Index> order() const { return std::span<const Index>(members_).first(positions_.size()); }
 
 private:
   template <typename Visitor>
@@ -46,9 +47,9 @@ private:
   std::array<std::ptrdiff_t, dim> n_cells_{};
   std::vector<std::size_t> offsets_;
   /// The particles cell by cell, and their coordinates in this order, so that a cell is read contiguously; a pack of
-  /// others behind the last one.
-  std::vector<Index> members_;
-  std::array<std::vector<double>, dim> sorted_;
+  /// others behind the last one. In large pages: cells that a query visits lie far apart.
+  linear_algebra::LargeArray<Index> members_;
+  std::array<linear_algebra::LargeArray<double>, dim> sorted_;
   bool in_order_ = true; ///< members_ are 0, 1, 2 ...
 };
 

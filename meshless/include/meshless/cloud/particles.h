@@ -1,5 +1,7 @@
 #pragma once
 
+#include "meshless/linear_algebra/large_array.h"
+
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -64,8 +66,9 @@ public:
   bool uniform() const { return uniform_; }
 
 private:
-  std::vector<Point<dim>> positions_;
-  std::vector<double> smoothing_lengths_;
+  // Read for every pair of neighbours: in large pages they take a few entries of the processor's table of pages.
+  linear_algebra::LargeArray<Point<dim>> positions_;
+  linear_algebra::LargeArray<double> smoothing_lengths_;
   std::vector<double> volumes_;
   std::vector<int> regions_;
   std::vector<Point<dim>> flattenings_;
