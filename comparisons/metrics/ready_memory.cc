@@ -4,12 +4,14 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <poll.h>
+#include <sched.h>
 #include <string>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -22,10 +24,10 @@ namespace {
 
 /// Given back at a time: large pages, whole ones.
 constexpr std::int64_t step = 4 << 20;
-/// Given back in advance, so that it is there when it is taken: a little more than is taken while the holder sleeps.
-/// All that is free loses its host memory every two seconds or so.
-constexpr std::int64_t ahead = 32 * step;
-constexpr long sleep_nanoseconds = 1'000'000;
+/// Given back in advance, so that it is there when it is taken: more than is taken while the holder sleeps.
+constexpr std::int64_t ahead = 16 * step;
+constexpr long sleep_nanoseconds = 4'000'000;
+constexpr long long_sleep_nanoseconds = 16'000'000; ///< after nothing was to be given back
 
 // The holder is the child of a process with threads, so that from its fork on it may not allocate: what it reads, it
 // reads into buffers of its own.
@@ -97,17 +99,47 @@ std::int64_t private_bytes(std::int64_t process) {
   return std::max<std::int64_t>(0, resident - shared) * page;
 }
 
-/// That of the process that works and of its children but this one: with --isolate a child of its own does.
-std::int64_t working_bytes(pid_t parent, pid_t self) {
-  std::int64_t sum = private_bytes(parent);
+/// The processor that a process ran on last; negative if it is gone.
+std::int64_t last_processor(std::int64_t process) {
+  constexpr int name_field = 2;
+  constexpr int processor_field = 39;
+  std::array<char, 1024> text{};
+  if (!ProcessFile(process, "/stat").read(text))
+    return -1;
+  const char *at = std::strrchr(text.data(), ')'); // the name may hold blanks
+  for (int field = name_field; at != nullptr && field < processor_field; ++field)
+    at = std::strchr(at + 1, ' ');
+  return at == nullptr ? -1 : next_number(at);
+}
+
+struct Work {
+  std::int64_t bytes = 0; ///< of the process that works and of its children but the holder
+  pid_t process = 0;      ///< that takes memory: with --isolate a child
+};
+
+Work find_work(pid_t parent, pid_t holder) {
+  Work work{private_bytes(parent), parent};
   std::array<char, 512> text{};
   if (ProcessFile(parent, "/task/", parent, "/children").read(text)) {
     const char *at = text.data();
     for (std::int64_t child = next_number(at); child > 0; child = next_number(at))
-      if (child != self)
-        sum += private_bytes(child);
+      if (child != holder) {
+        work.bytes += private_bytes(child);
+        work.process = static_cast<pid_t>(child);
+      }
   }
-  return sum;
+  return work;
+}
+
+/// What is given back waits for the processor that gave it: the work takes just these pages only on the same one.
+void follow(pid_t process) {
+  const auto processor = last_processor(process);
+  if (processor < 0 || processor >= CPU_SETSIZE)
+    return;
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(static_cast<std::size_t>(processor), &one);
+  sched_setaffinity(0, sizeof one, &one);
 }
 
 /// The child's work: takes the memory, says so with a byte for every step, and gives it back as the others take theirs.
@@ -135,13 +167,15 @@ std::int64_t working_bytes(pid_t parent, pid_t self) {
   }
   close(output);
   const pid_t self = getpid();
-  const std::int64_t at_first = working_bytes(parent, self);
-  // What came first goes first: measured, less of the work's memory is new than the other way round.
+  const std::int64_t at_first = find_work(parent, self).bytes;
   for (std::int64_t given_back = 0; given_back < bytes;) {
-    const std::int64_t taken = working_bytes(parent, self) - at_first;
-    for (; given_back < std::min(bytes, taken + ahead); given_back += step)
+    const Work work = find_work(parent, self);
+    const std::int64_t wanted = std::min(bytes, work.bytes - at_first + ahead);
+    const timespec pause{0, given_back < wanted ? sleep_nanoseconds : long_sleep_nanoseconds};
+    follow(work.process);
+    // What came first goes first: measured, less of the work's memory is new than the other way round.
+    for (; given_back < wanted; given_back += step)
       munmap(static_cast<char *>(pages) + given_back, static_cast<std::size_t>(std::min(step, bytes - given_back)));
-    const timespec pause{0, sleep_nanoseconds};
     nanosleep(&pause, nullptr);
   }
   _exit(0);
