@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -108,6 +110,22 @@ TEST(ReadyMemory, IsGivenBackAsMemoryIsTaken) {
   expect_falls_by(430 * MiB, 700 * MiB);
   kill(other, SIGKILL);
   waitpid(other, nullptr, 0);
+}
+
+/// A run that is killed leaves its lock at once, not after the memory.
+TEST(ReadyMemory, TheHolderHasNoFilesOfTheRun) {
+  const std::ifstream file("/proc/meminfo");
+  const ReadyMemory ready(512 * MiB);
+  ASSERT_NE(child(), "");
+  const auto n_files = [] {
+    std::size_t n = 0;
+    for (const auto &entry : std::filesystem::directory_iterator("/proc/" + child() + "/fd"))
+      n += std::stoi(entry.path().filename()) > 2 ? 1 : 0;
+    return n;
+  };
+  for (int k = 0; k < 20 && n_files() > 0; ++k) // for a moment, one that it reads of the process
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  EXPECT_EQ(std::min(n_files(), n_files()), 0U);
 }
 
 TEST(ReadyMemory, StopsWhenAsked) {
