@@ -1,5 +1,6 @@
 #include "comparisons/metrics/machine.h"
 
+#include "comparisons/metrics/memory.h"
 #include "fem_reference/threads.h"
 #include "meshless/linear_algebra/pack.h"
 #include "meshless/parallel/threads.h"
@@ -40,14 +41,6 @@ std::string cpu_name() {
     if (line.starts_with("model name"))
       return line.substr(line.find(':') + 2);
   return "unknown";
-}
-
-std::int64_t total_memory() {
-  std::ifstream info("/proc/meminfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("MemTotal:"))
-      return 1024 * std::stoll(line.substr(9));
-  return 0;
 }
 
 /// Seconds that all cores were busy since the system started: every field of the first line but idle and iowait, less
@@ -138,7 +131,7 @@ reports::Machine describe_machine(int threads) {
   reports::Machine machine;
   machine.cpu = cpu_name();
   machine.cores = static_cast<int>(std::thread::hardware_concurrency());
-  machine.memory_bytes = total_memory();
+  machine.memory_bytes = listed_bytes("/proc/meminfo", "MemTotal");
   machine.load = current_load().value_or(0);
   std::string config = openblas_get_config();
   while (!config.empty() && config.back() == ' ')

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace comparisons::metrics {
+
+/// A line such as "VmHWM:     1234 kB" of a file of /proc, in bytes; 0 if there is none.
+std::int64_t listed_bytes(const std::string &file, const std::string &key);
 
 /// Peak memory of a stretch of work: the high-water mark of this process after a reset, above what
 /// it held when the stretch began.

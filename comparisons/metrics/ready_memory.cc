@@ -1,5 +1,7 @@
 #include "comparisons/metrics/ready_memory.h"
 
+#include "comparisons/metrics/memory.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -95,8 +97,7 @@ std::int64_t private_bytes(std::int64_t process) {
   next_number(at);
   const std::int64_t resident = next_number(at);
   const std::int64_t shared = next_number(at);
-  constexpr std::int64_t page = 4096;
-  return std::max<std::int64_t>(0, resident - shared) * page;
+  return std::max<std::int64_t>(0, resident - shared) * sysconf(_SC_PAGESIZE);
 }
 
 /// The processor that a process ran on last; negative if it is gone.
@@ -169,9 +170,9 @@ void follow(pid_t process) {
     if (write(output, "", 1) != 1)
       _exit(1);
   }
-  close(output);
   const pid_t self = getpid();
   const std::int64_t at_first = find_work(parent, self).bytes;
+  close(output); // the work begins
   for (std::int64_t given_back = 0; given_back < bytes;) {
     const Work work = find_work(parent, self);
     const std::int64_t wanted = std::min(bytes, work.bytes - at_first + ahead);
@@ -209,11 +210,7 @@ void lower_to_limits(const std::filesystem::path &root, std::filesystem::path gr
 } // namespace
 
 std::int64_t available_memory() {
-  std::int64_t least = 0;
-  std::ifstream machine("/proc/meminfo");
-  for (std::string line; std::getline(machine, line);)
-    if (line.starts_with("MemAvailable:"))
-      least = 1024 * std::stoll(line.substr(13));
+  std::int64_t least = listed_bytes("/proc/meminfo", "MemAvailable");
   std::ifstream groups("/proc/self/cgroup");
   // "4:memory:/path" in version 1, "0::/path" in version 2
   for (std::string line; std::getline(groups, line);) {

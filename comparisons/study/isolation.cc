@@ -1,12 +1,13 @@
 #include "comparisons/study/isolation.h"
 
+#include "comparisons/metrics/memory.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <poll.h>
 #include <stdexcept>
@@ -22,17 +23,9 @@ namespace {
 /// Exit code by which a child says that its memory ran out.
 constexpr int memory_exit = 86;
 
-/// Private memory of this process that RLIMIT_DATA counts, in bytes.
-std::int64_t data_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmData:"))
-      return 1024 * std::stoll(line.substr(7));
-  return 0;
-}
-
 void limit_memory(std::int64_t bytes) {
-  const auto limit = static_cast<rlim_t>(data_bytes() + bytes);
+  // RLIMIT_DATA counts the private memory that there is, too.
+  const auto limit = static_cast<rlim_t>(metrics::listed_bytes("/proc/self/status", "VmData") + bytes);
   const rlimit value{limit, limit};
   setrlimit(RLIMIT_DATA, &value);
 }

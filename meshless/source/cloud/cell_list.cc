@@ -81,7 +81,6 @@ CellList<dim>::CellList(std::span<const Point<dim>> positions, double cell_size)
     offsets_[c] += offsets_[c - 1];
   std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
   const auto make_room = [&](auto &array, auto behind) {
-    array.reserve(positions.size() + n_lanes);
     array.resize(positions.size() + n_lanes);
     std::fill(array.begin() + positions.size(), array.end(), behind);
   };

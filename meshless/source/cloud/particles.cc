@@ -16,7 +16,6 @@ namespace {
 template <typename T>
 linear_algebra::LargeArray<T> in_large_pages(std::span<const T> values) {
   linear_algebra::LargeArray<T> result;
-  result.reserve(values.size());
   result.append(values);
   return result;
 }

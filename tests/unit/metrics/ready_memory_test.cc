@@ -3,6 +3,7 @@
 
 #include "comparisons/metrics/ready_memory.h"
 
+#include "comparisons/metrics/memory.h"
 #include "comparisons/scene/reader.h"
 #include "comparisons/study/run_scene.h"
 #include "sanitized.h"
@@ -17,7 +18,6 @@
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -32,13 +32,8 @@ using metrics::ReadyMemory;
 
 constexpr std::int64_t MiB = 1 << 20;
 
-/// A line such as "VmRSS:     1234 kB" of a process, in bytes; nothing if there is none.
-std::optional<std::int64_t> status_bytes(const std::string &process, const std::string &key) {
-  std::ifstream status("/proc/" + process + "/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with(key + ":"))
-      return 1024 * std::stoll(line.substr(key.size() + 1));
-  return {};
+std::int64_t status_bytes(const std::string &process, const std::string &key) {
+  return metrics::listed_bytes("/proc/" + process + "/status", key);
 }
 
 /// Number of a child of this process; empty if it has none.
@@ -78,13 +73,13 @@ TEST(ReadyMemory, AChildHoldsItAndNothingIsLeftAfterwards) {
   }
   EXPECT_EQ(child(), "");
   EXPECT_LT(waitpid(-1, nullptr, WNOHANG), 0); // and none waits to be asked for
-  EXPECT_LT(*status_bytes("self", "VmRSS"), *before + 64 * MiB);
+  EXPECT_LT(status_bytes("self", "VmRSS"), before + 64 * MiB);
 }
 
 TEST(ReadyMemory, IsGivenBackAsMemoryIsTaken) {
   const ReadyMemory ready(768 * MiB);
   ASSERT_EQ(ready.bytes(), 768 * MiB);
-  const auto held = [] { return status_bytes(child(), "VmRSS").value_or(0); };
+  const auto held = [] { return status_bytes(child(), "VmRSS"); };
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_GT(held(), 600 * MiB) << "nobody has taken anything";
   const std::int64_t at_first = held();
@@ -123,9 +118,12 @@ TEST(ReadyMemory, TheHolderHasNoFilesOfTheRun) {
       n += std::stoi(entry.path().filename()) > 2 ? 1 : 0;
     return n;
   };
-  for (int k = 0; k < 20 && n_files() > 0; ++k) // for a moment, one that it reads of the process
+  std::size_t least = n_files();
+  for (int k = 0; k < 20 && least > 0; ++k) { // for a moment, one that it reads of the process
     std::this_thread::sleep_for(std::chrono::milliseconds(3));
-  EXPECT_EQ(std::min(n_files(), n_files()), 0U);
+    least = std::min(least, n_files());
+  }
+  EXPECT_EQ(least, 0U);
 }
 
 TEST(ReadyMemory, StopsWhenAsked) {
@@ -145,7 +143,7 @@ TEST(ReadyMemory, TakesNothingForNothing) {
 TEST(ReadyMemory, ALimitIsNoError) {
   EXPECT_EXIT(
       {
-        const auto limit = static_cast<rlim_t>(*status_bytes("self", "VmData") + 64 * MiB);
+        const auto limit = static_cast<rlim_t>(status_bytes("self", "VmData") + 64 * MiB);
         rlimit value;
         value.rlim_cur = value.rlim_max = limit;
         setrlimit(RLIMIT_DATA, &value);
